@@ -8,6 +8,7 @@
 
 #include "core/camera.h"
 #include "core/rectified_rig.h"
+#include "core/row_plane.h"
 
 namespace softscope {
 
@@ -19,6 +20,7 @@ struct StereoCalibration {
   Eigen::Isometry3d right_from_left = Eigen::Isometry3d::Identity();
   bool rectified = false;             // the images on disk are rectified
   double depth_unit_mm = 0.01;        // one step of the 16-bit depth files
+  RowPlane rows;                      // remaining after rectification, as measured in a clip
   std::string source;                 // name of the file, for messages
   std::string form;                   // "OpenCV", "Hamlyn", "OpenCAS", "SCARED", "EndoNeRF", "ROS"
   std::vector<std::string> warnings;  // unusual values, one line each

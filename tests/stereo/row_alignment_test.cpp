@@ -55,6 +55,23 @@ TEST(RowAlignment, RemovesWhatItFound) {
   EXPECT_LT(after.mean_row_difference_px, 0.12);
 }
 
+/// An organ of a third of the image does not show the roll of its calibration.
+TEST(RowAlignment, OfASmallOrganIsThatOfItsClip) {
+  test::Scene scene = misaligned(0, 0.006, 3);
+  const int third = scene.left.width_px / 3;
+  for (GrayImage* image : {&scene.left, &scene.right})
+    for (int v = 0; v < image->height_px; ++v)
+      for (int u = 0; u < image->width_px; ++u)
+        if (u < third || u >= 2 * third) image->at(u, v) = 20;
+  const auto tilt = [&](const RowPlane& expected) {
+    return alignRows({test::colourOf(scene.left), test::colourOf(scene.right)}, 100, {}, expected)
+        .roll_rad;
+  };
+  EXPECT_LT(std::abs(tilt({})), 0.003);
+  EXPECT_NEAR(tilt({0, 0.006, 0}), 0.006, 0.0008);
+  EXPECT_EQ(tilt({0, 0.0005, 0}), 0) << "too small to count";
+}
+
 TEST(RowAlignment, FindsRowsEightPixelsOff) {
   for (const double shift_px : {-8.0, 8.0}) {
     const auto scene = misaligned(shift_px, 0);
@@ -199,6 +216,47 @@ TEST(RowModel, DoesNotFollowItsSlopeWhereNothingWasMatched) {
   EXPECT_NEAR(model.at(100, 240), 1.0, 0.2);
   // The line through the matches would give -4.4 px here.
   EXPECT_LT(std::abs(model.at(639, 240)), 1.0);
+}
+
+TEST(RowModel, IsDrawnToTheExpectedRowsWhereNothingWasMatched) {
+  const RowAlignment picture = pictureOf(640, 480);
+  const RowPlane expected{1.5, -0.004, 0.002};
+  const auto expected_px = [&](double u, double v) {
+    return 1.5 - 0.004 * (u - picture.centre_u_px) + 0.002 * (v - picture.centre_v_px);
+  };
+  std::vector<RowMatch> matches;  // of one part
+  for (int u = 205; u < 440; u += 12)
+    for (int v = 205; v < 400; v += 12)
+      matches.push_back({1.0 * u, 1.0 * v, expected_px(u, v) + 0.05 * ((u + 3 * v) % 7 - 3)});
+  const RowAlignment model = fitRowModel(matches, picture, expected);
+  ASSERT_TRUE(model.known());
+  for (const int u : {0, 639})
+    for (const int v : {0, 479}) EXPECT_NEAR(model.at(u, v), expected_px(u, v), 0.1);
+  EXPECT_GT(std::abs(fitRowModel(matches, picture).at(0, 240) - expected_px(0, 240)), 0.5)
+      << "one part alone does not tell";
+  double mean_px = 0;
+  for (const RowMatch& m : matches) mean_px += std::abs(m.difference_px);
+  EXPECT_NEAR(model.mean_row_difference_px, mean_px / static_cast<double>(matches.size()), 1e-9);
+  // What matches show counts more than what is expected.
+  EXPECT_NEAR(fitRowModel(matches, picture, {0.5, 0.004, 0}).at(320, 300), expected_px(320, 300),
+              0.1);
+}
+
+TEST(RowPlane, IsThatOfMostMatches) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise_px(0, 0.2);
+  std::uniform_real_distribution<double> any_px(-8, 8);
+  std::vector<RowMatch> matches;
+  for (int u = 100; u < 260; u += 6)
+    for (int v = 80; v < 220; v += 6) {
+      const double true_px = -2 + 0.005 * (u - 179.5) - 0.001 * (v - 143.5);
+      const bool is_wrong = (u / 6 + v / 6) % 4 == 0;
+      matches.push_back({1.0 * u, 1.0 * v, is_wrong ? any_px(random) : true_px + noise_px(random)});
+    }
+  const RowPlane plane = fitRowPlane(matches, pictureOf(360, 288));
+  EXPECT_NEAR(plane.centre_px, -2, 0.05);
+  EXPECT_NEAR(plane.per_column, 0.005, 0.0006);
+  EXPECT_NEAR(plane.per_row, -0.001, 0.0006);
 }
 
 /// A calibration with rows that differ by 2.5 px, of which weak texture shows a part.

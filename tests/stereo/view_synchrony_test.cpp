@@ -106,6 +106,20 @@ TEST(ViewSynchrony, IsNoneWhereRowsDisagreeAtEveryOffset) {
   EXPECT_GT(found.agreeing, 200);
 }
 
+TEST(ViewSynchrony, HasTheRowsThatAllFramesHaveInCommon) {
+  const test::Scene scene = test::makeScene(test::endoscope(), test::plane(55, 0.2, 0.1), 1.0);
+  SynchronyMeter meter(100);
+  for (int f = 0; f < 2; ++f) {
+    const GrayImage right = pieceOf(scene.right, 20), flat(right.width_px, kRows, 100);
+    meter.add(pieceOf(scene.left, 17), {flat, flat, right, flat, flat});
+  }
+  const RowPlane rows = meter.rowsAt(0);
+  EXPECT_NEAR(rows.centre_px, -3, 0.05);
+  EXPECT_NEAR(rows.per_column, 0, 0.0005);
+  EXPECT_NEAR(rows.per_row, 0, 0.0005);
+  EXPECT_EQ(meter.rowsAt(1).centre_px, 0) << "unknown";
+}
+
 TEST(ViewSynchrony, IsUnknownWithoutMotionOrTexture) {
   EXPECT_EQ(measure(0, 1).right_offset, 0);
   SynchronyMeter meter(64);

@@ -291,6 +291,16 @@ TEST_F(RunOfAClip, PairsTheViewsOfOneMoment) {
             1.2 * double(done["mean_prediction_mm"]));
 }
 
+TEST_F(RunOfAClip, KnowsTheRollThatAllFramesHaveInCommon) {
+  makeClip(12, {"scope.roll_error_deg=0.4"});
+  const Json rows = written(reconstructSequence(options()).record)["rows"];
+  const double roll = -double(rows["per_column"]) * 180 / M_PI;
+  EXPECT_LT(roll, 0.42);
+  EXPECT_GT(roll, 0.3) << "matches of a small image are drawn to whole rows";
+  EXPECT_NEAR(double(rows["centre_px"]), 0, 0.1);
+  EXPECT_NEAR(double(rows["per_row"]), 0, 0.001);
+}
+
 // Depth and colour of one camera, then depth alone: no word of stereo, and the model is as good.
 TEST_F(RunOfAClip, TakesDepthWithColourAndDepthAlone) {
   makeClip(6, {"input_depth=true"});

@@ -49,7 +49,7 @@ class SequenceMeasurement {
   MeasuredSequence measure();
 
  private:
-  void estimateOffset();
+  RowPlane relateViews();
   void requireFree(const DepthOutputs& outputs, int frames) const;
   DepthEstimator estimatorFor(const SequenceReader& reader) const;
   void measureAll(SequenceReader& reader, DepthEstimator& estimator, const DepthOutputs& outputs,
@@ -69,11 +69,12 @@ class SequenceMeasurement {
 };
 
 /// As in reconstruct, for more than one pair with stereo depth.
-void SequenceMeasurement::estimateOffset() {
+RowPlane SequenceMeasurement::relateViews() {
   DepthOptions& settings = options_.settings;
-  const std::string warning =
-      estimateRightOffset(options_.sequence, settings.measurement, settings.sequence);
-  if (!warning.empty()) listener_.warn(warning);
+  const ViewRelation views =
+      softscope::relateViews(options_.sequence, settings.measurement, settings.sequence);
+  if (!views.warning.empty()) listener_.warn(views.warning);
+  return views.rows;
 }
 
 void SequenceMeasurement::requireFree(const DepthOutputs& outputs, int frames) const {
@@ -98,8 +99,9 @@ DepthEstimator SequenceMeasurement::estimatorFor(const SequenceReader& reader) c
 MeasuredSequence SequenceMeasurement::measure() {
   options_.settings.validate();
   options_.settings.sequence.uncalibrated = options_.uncalibrated();
-  estimateOffset();
+  const RowPlane rows = relateViews();
   SequenceReader reader(options_.sequence, options_.settings.sequence);
+  reader.expectRows(rows);
   for (const std::string& warning : reader.calibration().warnings) listener_.warn(warning);
   options_.numbered = options_.numbered || reader.totalCount() > 1;
   DepthOutputKinds kinds = options_.kinds            ? *options_.kinds

@@ -12,9 +12,9 @@ namespace softscope::api {
 namespace {
 
 /// As the command: with the estimated offset between the views.
-SequenceOptions optionsOf(const SequencePaths& paths, const Options& chosen, std::string* warning) {
+SequenceOptions optionsOf(const SequencePaths& paths, const Options& chosen, ViewRelation* views) {
   RunOptions options = runOptionsOf(chosen);
-  *warning = estimateRightOffset(paths, options.method.depth, options.sequence);
+  *views = relateViews(paths, options.method.depth, options.sequence);
   return options.sequence;
 }
 
@@ -32,9 +32,11 @@ SequencePaths pathsOf(const std::string& left, const std::string& right,
 Sequence::Impl::Impl(SequencePaths opened, const Options& given)
     : paths(std::move(opened)),
       chosen(given),
-      options(optionsOf(paths, chosen, &offset_warning)),
+      options(optionsOf(paths, chosen, &views)),
       reader(paths, options),
-      frames(reader) {}
+      frames(reader) {
+  reader.expectRows(views.rows);
+}
 
 Sequence::Sequence(const std::string& folder, const Options& options)
     : impl_(std::make_shared<Impl>(findSequence(folder), options)) {}
@@ -53,7 +55,7 @@ int Sequence::frameCount() const { return impl_->reader.frameCount(); }
 
 std::vector<std::string> Sequence::warnings() const {
   std::vector<std::string> all = impl_->reader.calibration().warnings;
-  if (!impl_->offset_warning.empty()) all.insert(all.begin(), impl_->offset_warning);
+  if (!impl_->views.warning.empty()) all.insert(all.begin(), impl_->views.warning);
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include "io/sequences/sequence_paths.h"
 #include "io/sequences/sequence_reader.h"
 #include "softscope/sequence.h"
+#include "toolkit/run/stereo_sync.h"
 
 namespace softscope::api {
 
@@ -15,8 +16,8 @@ struct Sequence::Impl {
 
   SequencePaths paths;
   Options chosen;
-  std::string offset_warning;  // empty: none
-  SequenceOptions options;     // as used: with the estimated offset
+  ViewRelation views;
+  SequenceOptions options;  // as used: with the estimated offset
   SequenceReader reader;
   FrameWindow frames;
 };

@@ -136,7 +136,7 @@ void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool c
   SequenceOptions options;
   FrameDepthOptions measured;
   measured.source = "stereo";  // the views are checked, whatever depth there is
-  const std::string shifted = estimateRightOffset(paths, measured, options);
+  const ViewRelation views = relateViews(paths, measured, options);
   SequenceReader reader(paths, options);
   auto first = reader.next();
   while (first && first->unpaired) first = reader.next();
@@ -147,7 +147,7 @@ void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool c
             "width_px", left.width_px);
   facts.addQuietly("height_px", left.height_px);
   if (!paths.right.empty()) facts.addQuietly("right_offset", options.rightOffset());
-  if (!shifted.empty()) facts.warn(shifted);
+  if (!views.warning.empty()) facts.warn(views.warning);
   addCalibration(reader.calibration(), "calibration", facts);
   addRows(first->frame, reader.calibration(), facts);
   if (check_all) checkFrames(reader, facts);

@@ -118,9 +118,8 @@ ReconstructedRun SequenceRun::run() {
                     options_.overwrite, options_.checkpoint_every},
                    options_.resume);
   const ReconstructionOptions& method = options_.settings.method;
-  if (const std::string warning = estimateRightOffset(options_.sequence, method.depth, sequence);
-      !warning.empty())
-    listener_.warn(warning);
+  const ViewRelation views = relateViews(options_.sequence, method.depth, sequence);
+  if (!views.warning.empty()) listener_.warn(views.warning);
   const Json inputs = inputsJson(options_.sequence, method.depth.stereo.model);
   const SettingsBinder binder = settingsOf(options_.settings);
   const std::string digest = digestOf(inputs, binder.list(), options_.tracks, sequence.frames);
@@ -129,6 +128,7 @@ ReconstructedRun SequenceRun::run() {
   if (earlier) skipDone(*earlier);
 
   SequenceReader reader(options_.sequence, sequence);
+  reader.expectRows(views.rows);
   FrameWindow frames(reader);
   for (const std::string& warning : reader.calibration().warnings) listener_.warn(warning);
   Reconstructor reconstructor(backendOf(reader.calibration()), method);

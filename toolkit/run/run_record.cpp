@@ -29,6 +29,11 @@ Json machineJson(const ReconstructionBackend& backend) {
           {"threads", threadCount()}};
 }
 
+Json rowsJson(const RowPlane& rows) {
+  return {
+      {"centre_px", rows.centre_px}, {"per_column", rows.per_column}, {"per_row", rows.per_row}};
+}
+
 Json rigJson(const RectifiedRig& rig, bool one_camera) {
   return {{"width_px", rig.left.width_px},
           {"height_px", rig.left.height_px},
@@ -66,6 +71,7 @@ RunRecord::RunRecord(const Json& inputs, const StereoCalibration& calibration,
   json_["machine"] = machineJson(backend);
   json_["inputs"] = inputs;
   json_["rectified_rig"] = rigJson(backend.rig(), hasOneCamera(calibration));
+  json_["rows"] = rowsJson(calibration.rows);
   setConfiguration(settings);
   for (const std::string& warning : calibration.warnings) addWarning(warning);
 }

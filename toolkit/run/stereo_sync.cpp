@@ -32,8 +32,8 @@ void addMoment(const Window& window, const Rectifier& rectifier, SynchronyMeter&
   meter.add(left, rights);
 }
 
-ViewSynchrony measure(const SequencePaths& paths, const SequenceOptions& options,
-                      int disparity_max_px) {
+SynchronyMeter measure(const SequencePaths& paths, const SequenceOptions& options,
+                       int disparity_max_px) {
   SequenceOptions successive = options;  // the same frames for every command and range
   successive.frames.end = -1;
   successive.frames.step = 1;
@@ -53,17 +53,10 @@ ViewSynchrony measure(const SequencePaths& paths, const SequenceOptions& options
     addMoment(window, rectifier, meter);
     if (++moments == kFirstMoments && meter.isClear()) break;
   }
-  return meter.result();
+  return meter;
 }
 
-}  // namespace
-
-std::string estimateRightOffset(const SequencePaths& paths, const FrameDepthOptions& depth,
-                                SequenceOptions& options) {
-  if (depth.source != "stereo" && !paths.depth.empty()) return "";
-  if (options.right_offset != "auto" || paths.right.empty() || isPicture(paths.left)) return "";
-  const ViewSynchrony found = measure(paths, options, depth.stereo.disparity_max_px);
-  options.right_offset = std::to_string(found.right_offset);
+std::string warningOf(const ViewSynchrony& found) {
   if (found.right_offset == 0) return "";
   std::array<char, 16> offset{};
   std::snprintf(offset.data(), offset.size(), "%+d", found.right_offset);
@@ -71,6 +64,19 @@ std::string estimateRightOffset(const SequencePaths& paths, const FrameDepthOpti
              " belongs to left image f (", found.agreeing, " matches have consistent rows then, ",
              found.agreeing_as_is,
              " without the offset) and is paired with it; sequence.right_offset=0 disables this");
+}
+
+}  // namespace
+
+ViewRelation relateViews(const SequencePaths& paths, const FrameDepthOptions& depth,
+                         SequenceOptions& options) {
+  if (depth.source != "stereo" && !paths.depth.empty()) return {};
+  if (paths.right.empty() || isPicture(paths.left)) return {};
+  const SynchronyMeter meter = measure(paths, options, depth.stereo.disparity_max_px);
+  if (options.right_offset != "auto") return {meter.rowsAt(0), ""};
+  const ViewSynchrony found = meter.result();
+  options.right_offset = std::to_string(found.right_offset);
+  return {meter.rowsAt(found.right_offset), warningOf(found)};
 }
 
 }  // namespace softscope

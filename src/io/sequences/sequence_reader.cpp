@@ -53,6 +53,7 @@ class SequenceReader::Impl {
   }
 
   const StereoCalibration& calibration() const { return calibration_; }
+  void expectRows(const RowPlane& rows) { calibration_.rows = rows; }
   int frameCount() const { return range_.count(); }
   int totalCount() const { return loader_.count(); }
 
@@ -122,6 +123,7 @@ SequenceReader::SequenceReader(SequenceReader&&) noexcept = default;
 SequenceReader& SequenceReader::operator=(SequenceReader&&) noexcept = default;
 
 const StereoCalibration& SequenceReader::calibration() const { return impl_->calibration(); }
+void SequenceReader::expectRows(const RowPlane& rows) { impl_->expectRows(rows); }
 int SequenceReader::frameCount() const { return impl_->frameCount(); }
 int SequenceReader::totalCount() const { return impl_->totalCount(); }
 std::optional<FrameResult> SequenceReader::next() { return impl_->next(); }

@@ -42,6 +42,8 @@ class SequenceReader {
 
   /// With the image size, and warnings about it.
   const StereoCalibration& calibration() const;
+  /// Sets those of the calibration, after they are measured.
+  void expectRows(const RowPlane& rows);
 
   /// Number of frames of the range.
   int frameCount() const;

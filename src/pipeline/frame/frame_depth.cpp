@@ -18,6 +18,7 @@ FrameDepth::FrameDepth(const StereoCalibration& calibration, const FrameDepthOpt
     : options_(options),
       calibration_source_(calibration.source),
       rectified_(calibration.rectified),
+      rows_(calibration.rows),
       rectifier_(calibration),
       stage_(makeStage(options.stereo, rectifier_.rig())) {
   options.validate();
@@ -75,7 +76,7 @@ FrameViews FrameDepth::align(const Frame& frame) const {
   measured.border = ignored.left;
   clock.lap("rectify");
   const auto align = options_.align_rows ? alignRows : withoutAlignment;
-  aligned = align(std::move(rectified), options_.stereo.disparity_max_px, ignored);
+  aligned = align(std::move(rectified), options_.stereo.disparity_max_px, ignored, rows_);
   measured.rows = aligned.before;
   measured.rows_aligned = aligned.removed;
   clock.lap("rows");

@@ -75,6 +75,7 @@ class FrameDepth {
   FrameDepthOptions options_;
   std::string calibration_source_;
   bool rectified_;
+  RowPlane rows_;  // expected
   Rectifier rectifier_;
   std::unique_ptr<StereoStage> stage_;
 };

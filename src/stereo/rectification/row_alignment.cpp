@@ -1,5 +1,6 @@
 #include "stereo/rectification/row_alignment.h"
 
+#include <cmath>
 #include <utility>
 
 #include "core/mask_morphology.h"
@@ -16,6 +17,13 @@ constexpr int kPasses = 2;
 /// Whether row differences are small enough to keep the image, or unknown.
 bool needsNoShift(const RowAlignment& found) {
   return !found.known() || found.explained_px() < RowAlignment::kRemoveAbovePx;
+}
+
+/// The expected one, if it counts. Before a small organ it hardly moves rows, but disparities.
+double rollOf(const RowPlane& expected, int width_px) {
+  return std::abs(expected.per_column) * width_px / 2 < RowAlignment::kRemoveAbovePx
+             ? 0
+             : expected.per_column;
 }
 
 AlignedPair grayPair(StereoPair rectified, const ViewMasks& ignored) {
@@ -38,25 +46,29 @@ Mask moveMask(const Mask& mask, const RowAlignment& alignment) {
 }  // namespace
 
 RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
-                                 int disparity_max_px, const ViewMasks& ignored) {
-  return RowMeter(left, disparity_max_px, ignored.left).measure(right, ignored.right);
+                                 int disparity_max_px, const ViewMasks& ignored,
+                                 const RowPlane& expected) {
+  return RowMeter(left, disparity_max_px, ignored.left).measure(right, ignored.right, expected);
 }
 
 ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignment) {
   return moveRows(right, alignment);
 }
 
-AlignedPair withoutAlignment(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored) {
+AlignedPair withoutAlignment(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored,
+                             const RowPlane& expected) {
   AlignedPair aligned = grayPair(std::move(rectified), ignored);
-  aligned.before =
-      measureRowAlignment(aligned.left_gray, aligned.right_gray, disparity_max_px, ignored);
+  aligned.before = measureRowAlignment(aligned.left_gray, aligned.right_gray, disparity_max_px,
+                                       ignored, expected);
   return aligned;
 }
 
-AlignedPair alignRows(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored) {
+AlignedPair alignRows(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored,
+                      const RowPlane& expected) {
   AlignedPair aligned = grayPair(std::move(rectified), ignored);
   RowMeter meter(aligned.left_gray, disparity_max_px, ignored.left);
-  aligned.before = meter.measure(aligned.right_gray, ignored.right);
+  aligned.before = meter.measure(aligned.right_gray, ignored.right, expected);
+  aligned.roll_rad = rollOf(expected, aligned.left_gray.width_px);
   if (needsNoShift(aligned.before)) return aligned;
   RowAlignment whole = aligned.before;
   for (int pass = 0; pass < kPasses; ++pass) {

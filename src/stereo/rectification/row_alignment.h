@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/image.h"
+#include "core/row_plane.h"
 #include "stereo/images/view_masks.h"
 
 namespace softscope {
@@ -43,7 +44,8 @@ struct RowAlignment {
 /// Matches a coarse grid of pixels over all disparities up to `disparity_max_px`
 /// and up to ten rows of offset. Never fails: few matches mean !known().
 RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
-                                 int disparity_max_px, const ViewMasks& ignored = {});
+                                 int disparity_max_px, const ViewMasks& ignored = {},
+                                 const RowPlane& expected = {});
 
 /// The right image with the row difference of the model removed.
 ColourImage removeRowError(const ColourImage& right, const RowAlignment& alignment);
@@ -55,16 +57,19 @@ struct AlignedPair {
   ViewMasks ignored;                // the right one moved with its view
   RowAlignment before;              // as measured
   bool removed = false;             // whether the right image was moved
-  /// Of the right camera about its optical axis, from the tilt of the rows: see removeRoll().
+  /// Of the right camera about its optical axis, from the tilt of the rows, of which an image that
+  /// was not moved has only the expected one: see removeRoll().
   double roll_rad = 0;
 };
 
 /// Measures the row difference and, where the model explains kRemoveAbovePx, measures again on the
 /// moved right image, with better matches; moves the right image by the sum at once. Ignored pixels
-/// do not count.
-AlignedPair alignRows(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored = {});
+/// do not count. Where nothing matches, rows are drawn to the expected ones.
+AlignedPair alignRows(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored = {},
+                      const RowPlane& expected = {});
 /// Measures the row difference only.
-AlignedPair withoutAlignment(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored);
+AlignedPair withoutAlignment(StereoPair rectified, int disparity_max_px, const ViewMasks& ignored,
+                             const RowPlane& expected = {});
 
 /// Moving rows removes half of a roll; the other half makes disparities
 /// too large by roll_rad * (v - centre_v), px, which is subtracted here.

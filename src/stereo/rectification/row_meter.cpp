@@ -122,11 +122,12 @@ GradientImage RowMeter::gradientOf(const GrayImage& right, const Mask& ignored) 
   return {fillMasked(right, ignored), ElasOptions{}.gradient_gain, margin_px_, ignored};
 }
 
-RowAlignment RowMeter::measure(const GrayImage& right, const Mask& ignored) {
+RowAlignment RowMeter::measure(const GrayImage& right, const Mask& ignored,
+                               const RowPlane& expected) {
   const GradientImage gradient = gradientOf(right, ignored);
   const auto few = matchRows(gradient, 0, grid_px_ + grid_px_ / 2);
   const bool is_enough = few.size() >= kPlenty && isInReach(few);
-  return fitRowModel(is_enough ? few : matchNearest(gradient), scale());
+  return fitRowModel(is_enough ? few : matchNearest(gradient), scale(), expected);
 }
 
 std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignored) {

@@ -22,8 +22,10 @@ class RowMeter {
   /// Matches; most of them correct.
   std::vector<RowMatch> match(const GrayImage& right, const Mask& ignored = {});
 
-  /// The smooth row difference of the matches, of which rows that correspond need only half.
-  RowAlignment measure(const GrayImage& right, const Mask& ignored = {});
+  /// The smooth row difference of the matches, of which rows that correspond need only half; where
+  /// nothing matches, the expected one.
+  RowAlignment measure(const GrayImage& right, const Mask& ignored = {},
+                       const RowPlane& expected = {});
 
   /// Without measurement: the frame of reference of fitRowModel().
   RowAlignment scale() const;

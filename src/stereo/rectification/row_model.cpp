@@ -10,6 +10,7 @@
 namespace softscope {
 namespace {
 
+constexpr int kRounds = 8, kFirstLimit = 4;
 constexpr double kMismatchPx = 1;       // from the model: the match no longer counts
 constexpr double kLeastLimitPx = 0.4;   // of the residuals that count
 constexpr int kColumns = 8, kRows = 6;  // of the grid in which matches are counted
@@ -86,48 +87,85 @@ double commonDifference(const std::vector<RowMatch>& matches) {
   return scatter < std::abs(median) ? median * (1 - std::pow(scatter / median, 2)) : 0;
 }
 
-std::array<double, 6> refit(const std::vector<RowMatch>& matches, double common_px,
-                            double most_limit_px, const RowAlignment& alignment) {
-  const std::vector<double> residuals = residualsOf(matches, alignment);
-  const double limit = std::clamp(4.685 * scatterOf(residuals), kLeastLimitPx, most_limit_px);
+/// Tukey's weights about the model of the round before.
+std::vector<double> weightsOf(const std::vector<RowMatch>& matches, int round,
+                              const RowAlignment& alignment) {
+  std::vector<double> values = residualsOf(matches, alignment);
+  const double limit = std::clamp(4.685 * scatterOf(values), kLeastLimitPx,
+                                  kMismatchPx * std::max(1, kFirstLimit - round));
+  for (double& x : values) x = std::abs(x) < limit ? std::pow(1 - (x / limit) * (x / limit), 2) : 0;
+  return values;
+}
+
+RowEquations equationsOf(const std::vector<RowMatch>& matches, const std::vector<double>& weights,
+                         const RowAlignment& scale) {
   RowEquations equations;
-  CellCounts cells(alignment);
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    const double t = residuals[i] / limit, w = std::abs(t) < 1 ? std::pow(1 - t * t, 2) : 0;
-    equations.add(termsAt(alignment, matches[i].u_right_px, matches[i].v_right_px),
-                  matches[i].difference_px, w);
-    cells.add(matches[i], w);
-  }
-  cells.addEmptyCells(alignment, common_px, equations);
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    equations.add(termsAt(scale, matches[i].u_right_px, matches[i].v_right_px),
+                  matches[i].difference_px, weights[i]);
   // Few matches must not bend the image: slopes have a small cost, curvature a larger one.
   equations.normal.diagonal() += (Terms() << 0.1, 2, 2, 8, 8, 8).finished();
+  return equations;
+}
+
+std::array<double, 6> refit(const std::vector<RowMatch>& matches, double common_px, int round,
+                            const RowAlignment& alignment) {
+  const std::vector<double> weights = weightsOf(matches, round, alignment);
+  RowEquations equations = equationsOf(matches, weights, alignment);
+  CellCounts cells(alignment);
+  for (std::size_t i = 0; i < matches.size(); ++i) cells.add(matches[i], weights[i]);
+  cells.addEmptyCells(alignment, common_px, equations);
   const Terms solved = equations.normal.ldlt().solve(equations.rhs);
   std::array<double, 6> model;
   std::copy_n(solved.data(), 6, model.begin());
   return model;
 }
 
+/// The plane as a model.
+RowAlignment withModel(const RowPlane& plane, RowAlignment scale) {
+  scale.model = {plane.centre_px, plane.per_column * scale.half_width_px,
+                 plane.per_row * scale.half_width_px};
+  return scale;
+}
+
 }  // namespace
 
-RowAlignment fitRowModel(const std::vector<RowMatch>& matches, RowAlignment alignment) {
-  constexpr int kRounds = 8, kFirstLimit = 4;
+RowAlignment fitRowModel(std::vector<RowMatch> matches, RowAlignment alignment,
+                         const RowPlane& expected) {
   if (matches.size() < RowAlignment::kFewestMatches) return alignment;
+  const RowAlignment plane = withModel(expected, alignment);
+  for (RowMatch& m : matches) m.difference_px -= plane.at(m.u_right_px, m.v_right_px);
   const double common_px = commonDifference(matches);
   alignment.model[0] = common_px;
   for (int round = 0; round < kRounds; ++round)
-    alignment.model =
-        refit(matches, common_px, kMismatchPx * std::max(1, kFirstLimit - round), alignment);
+    alignment.model = refit(matches, common_px, round, alignment);
   const std::vector<double> residuals = residualsOf(matches, alignment);
+  for (std::size_t k = 0; k < plane.model.size(); ++k) alignment.model[k] += plane.model[k];
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (std::abs(residuals[i]) > kMismatchPx) continue;
     ++alignment.matches;
     alignment.residual_px += std::abs(residuals[i]);
-    alignment.mean_row_difference_px += std::abs(matches[i].difference_px);
+    alignment.mean_row_difference_px +=
+        std::abs(matches[i].difference_px + plane.at(matches[i].u_right_px, matches[i].v_right_px));
   }
   if (alignment.matches == 0) return alignment;
   alignment.residual_px /= alignment.matches;
   alignment.mean_row_difference_px /= alignment.matches;
   return alignment;
+}
+
+RowPlane fitRowPlane(const std::vector<RowMatch>& matches, RowAlignment scale) {
+  std::vector<double> differences;
+  for (const RowMatch& m : matches) differences.push_back(m.difference_px);
+  scale.model = {medianOf(std::move(differences))};
+  for (int round = 0; round < kRounds; ++round) {
+    const RowEquations equations = equationsOf(matches, weightsOf(matches, round, scale), scale);
+    const Eigen::Vector3d solved =
+        equations.normal.topLeftCorner<3, 3>().ldlt().solve(equations.rhs.head<3>());
+    std::copy_n(solved.data(), 3, scale.model.begin());
+  }
+  return {scale.model[0], scale.model[1] / scale.half_width_px,
+          scale.model[2] / scale.half_width_px};
 }
 
 }  // namespace softscope

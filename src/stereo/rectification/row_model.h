@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/row_plane.h"
 #include "stereo/rectification/row_alignment.h"
 
 namespace softscope {
@@ -15,8 +16,13 @@ struct RowMatch {
 };
 
 /// Least squares with Tukey's weights about the median, then about the
-/// model. Without matches the model is drawn to the difference that the matches have in common,
-/// instead of an extrapolated curvature. Too few matches leave `alignment` unchanged.
-RowAlignment fitRowModel(const std::vector<RowMatch>& matches, RowAlignment alignment);
+/// model. Without matches the model is drawn to the expected rows and to the difference from them
+/// that the matches have in common, instead of an extrapolated slope or curvature. Too few matches
+/// leave `alignment` unchanged.
+RowAlignment fitRowModel(std::vector<RowMatch> matches, RowAlignment alignment,
+                         const RowPlane& expected = {});
+
+/// Plane of the matches of several frames, by the same weights. Needs one match.
+RowPlane fitRowPlane(const std::vector<RowMatch>& matches, RowAlignment scale);
 
 }  // namespace softscope

@@ -25,11 +25,11 @@ void SynchronyMeter::add(const GrayImage& left, const std::array<GrayImage, kOff
   }
 }
 
-RowAlignment SynchronyMeter::modelAt(int offset) const {
+SynchronyMeter::FrameMatches SynchronyMeter::allAt(int offset) const {
   FrameMatches all;
   for (const FrameMatches& frame : framesAt(offset))
     all.insert(all.end(), frame.begin(), frame.end());
-  return fitRowModel(all, scale_);
+  return all;
 }
 
 int SynchronyMeter::agreeingAt(int offset) const {
@@ -58,6 +58,10 @@ double SynchronyMeter::scatterAt(int offset) const {
     compared += static_cast<int>(frame.size());
   }
   return compared > 0 ? std::sqrt(sum_px2 / compared) : std::numeric_limits<double>::infinity();
+}
+
+RowPlane SynchronyMeter::rowsAt(int offset) const {
+  return agreeingAt(offset) < kFewestAgreeing ? RowPlane() : fitRowPlane(allAt(offset), scale_);
 }
 
 bool SynchronyMeter::isClear() const {

@@ -37,11 +37,16 @@ class SynchronyMeter {
   /// Offset 0 unless another one is clearly better: a static clip gives no information.
   ViewSynchrony result() const;
 
+  /// Rows that all frames have in common, with this offset: the error of the calibration. A single
+  /// frame does not show them where it has no texture. 0 without enough matches that agree.
+  RowPlane rowsAt(int offset) const;
+
  private:
   using FrameMatches = std::vector<RowMatch>;
 
   const std::vector<FrameMatches>& framesAt(int offset) const { return frames_[offset + kReach]; }
-  RowAlignment modelAt(int offset) const;
+  FrameMatches allAt(int offset) const;
+  RowAlignment modelAt(int offset) const { return fitRowModel(allAt(offset), scale_); }
   /// Pixels whose rows agree with the model of all frames.
   int agreeingAt(int offset) const;
   /// RMS difference of the known models of single frames from that of all, at their matches;
