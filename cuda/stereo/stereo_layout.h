@@ -170,7 +170,7 @@ struct StereoLevel {
 /// All levels, and the results of the stage.
 struct StereoLayout {
   StereoLayout(Arena& arena, const StereoOptions& options, int width, int height) {
-    StereoOptions level_options = options;
+    StereoOptions level_options = options.forWidth(width);
     for (int k = 0; k <= options.elas.coarser_levels; ++k) {
       levels.emplace_back(arena, level_options, width, height);
       if (std::min(width, height) < 2 * kSmallestPicturePx) break;

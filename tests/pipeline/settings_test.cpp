@@ -194,9 +194,11 @@ TEST(SettingsList, EveryNameInAMessageIsAKey) {
     spoil(options.method);
     return complaintOf(options);
   };
-  for (const std::string& complaint :
-       {spoilt([](auto& o) { o.depth.stereo.disparity_min_px = 300; }),
-        spoilt([](auto& o) { o.deform.data_weight = -1; })}) {
+  for (const std::string& complaint : {spoilt([](auto& o) {
+                                         o.depth.stereo.disparity_min_px = 300;
+                                         o.depth.stereo.disparity_max_px = 255;
+                                       }),
+                                       spoilt([](auto& o) { o.deform.data_weight = -1; })}) {
     ASSERT_FALSE(complaint.empty());
     std::istringstream words(complaint);
     for (std::string word; words >> word;) {

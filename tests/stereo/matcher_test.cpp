@@ -107,6 +107,16 @@ TEST(ElasMatcher, LosesNoColumnToTheRangeOfDisparities) {
   EXPECT_GT(measured, 35);
 }
 
+TEST(ElasMatcher, FindsTheLargerDisparitiesOfLargerImages) {
+  RectifiedRig rig = test::endoscope(960, 120);
+  rig.baseline_mm = 20;
+  const auto scene = test::makeScene(rig, test::plane(55), 1.0);  // 305 px
+  const Score score =
+      scoreOf(makeStereoMatcher({})->match(scene.left, scene.right), scene.disparity_px);
+  EXPECT_LT(score.median_px, 0.1);
+  EXPECT_GT(score.coverage, 0.9);
+}
+
 TEST(ElasMatcher, MatchesUnderAnExposureDifference) {
   auto scene = test::makeScene(test::endoscope(), test::plane(55, 0.3, 0.1), 1.0);
   for (auto& gray : scene.right.values) gray = static_cast<std::uint8_t>(0.85 * gray + 12);

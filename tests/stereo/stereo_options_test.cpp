@@ -19,13 +19,27 @@ void expectRefused(const StereoOptions& options, const std::string& field) {
 
 TEST(StereoOptions, HaveValidDefaults) { EXPECT_NO_THROW(StereoOptions{}.validate()); }
 
+TEST(StereoOptions, HaveARangeThatGrowsWithTheImage) {
+  const StereoOptions automatic;
+  EXPECT_EQ(automatic.forWidth(640).disparity_max_px, 255);
+  EXPECT_EQ(automatic.forWidth(320).disparity_max_px, 255);
+  EXPECT_EQ(automatic.forWidth(1280).disparity_max_px, 511);
+  EXPECT_EQ(automatic.forWidth(4096).disparity_max_px, StereoOptions::kLargestDisparityPx);
+  StereoOptions fixed;
+  fixed.disparity_max_px = 100;
+  EXPECT_EQ(fixed.forWidth(1280).disparity_max_px, 100);
+}
+
 TEST(StereoOptions, RefuseWrongValuesByName) {
   StereoOptions o;
   o.method = "elass";
   expectRefused(o, "stereo.method");
   o = {};
-  o.disparity_max_px = 0;
+  o.disparity_max_px = -1;
   expectRefused(o, "stereo.disparity_max_px");
+  o = {};
+  o.disparity_min_px = 255;
+  expectRefused(o.forWidth(320), "stereo.disparity_max_px");
   o = {};
   o.disparity_max_px = 5000;
   expectRefused(o, "stereo.disparity_max_px");

@@ -47,16 +47,16 @@ TEST(NarrowedTo, HoldsWhatWasFoundAndLeavesStraysOut) {
   std::vector<float> found;
   for (int i = 0; i < 100; ++i) found.push_back(30 + 0.1f * static_cast<float>(i));
   found.push_back(200);
-  const StereoOptions range = narrowedTo(found, {});
+  const StereoOptions range = narrowedTo(found, StereoOptions().forWidth(640));
   EXPECT_LE(range.disparity_min_px, 25);  // surfaces go on a little beyond what was found
   EXPECT_GE(range.disparity_max_px, 45);
   EXPECT_LT(range.disparity_max_px, 80);
   for (int i = 0; i < 5; ++i) found.push_back(150);  // a small surface counts
-  EXPECT_GE(narrowedTo(found, {}).disparity_max_px, 155);
+  EXPECT_GE(narrowedTo(found, StereoOptions().forWidth(640)).disparity_max_px, 155);
 }
 
 TEST(NarrowedTo, NeedsEnoughPoints) {
-  const StereoOptions range = narrowedTo({30, 30, 30, 30, 31}, {});
+  const StereoOptions range = narrowedTo({30, 30, 30, 30, 31}, StereoOptions().forWidth(640));
   EXPECT_EQ(range.disparity_min_px, 0);
   EXPECT_EQ(range.disparity_max_px, 255);
 }

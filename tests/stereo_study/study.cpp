@@ -52,7 +52,8 @@ struct Measured {
 Measured measure(const StereoPair& raw, const Rectifier& rectifier, bool align_rows) {
   StereoPair pair = rectifier.rectify(raw);
   ViewMasks ignored = pixelsToIgnore(pair, rectifier, /*find_border=*/true);
-  AlignedPair aligned = alignRows(pair, StereoOptions{}.disparity_max_px, ignored);
+  AlignedPair aligned =
+      alignRows(pair, StereoOptions{}.forWidth(pair.left.width_px).disparity_max_px, ignored);
   if (align_rows) {
     pair = std::move(aligned.pair);
     ignored = std::move(aligned.ignored);

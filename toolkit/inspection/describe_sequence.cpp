@@ -91,8 +91,9 @@ void addExtras(const std::string& folder, const SequencePaths& paths, FactSheet&
 void addRows(const Frame& frame, const StereoCalibration& calibration, FactSheet& facts) {
   if (frame.pair.right.empty()) return;
   const StereoPair rectified = Rectifier(calibration).rectify(frame.pair);
-  const RowAlignment rows = measureRowAlignment(toGray(rectified.left), toGray(rectified.right),
-                                                StereoOptions().disparity_max_px);
+  const RowAlignment rows =
+      measureRowAlignment(toGray(rectified.left), toGray(rectified.right),
+                          StereoOptions().forWidth(rectified.left.width_px).disparity_max_px);
   if (!rows.known()) {
     facts.warn(
         "left and right views hardly match in the first frame. Are they of one moment, and "

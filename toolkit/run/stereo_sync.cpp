@@ -33,14 +33,14 @@ void addMoment(const Window& window, const Rectifier& rectifier, SynchronyMeter&
 }
 
 SynchronyMeter measure(const SequencePaths& paths, const SequenceOptions& options,
-                       int disparity_max_px) {
+                       const StereoOptions& stereo) {
   SequenceOptions successive = options;  // the same frames for every command and range
   successive.frames.end = -1;
   successive.frames.step = 1;
   SequenceReader reader(paths, successive);
   const int step = std::max(1, std::min(reader.frameCount(), kFrames) / kMoments);
   const Rectifier rectifier(reader.calibration());
-  SynchronyMeter meter(disparity_max_px);
+  SynchronyMeter meter(stereo.forWidth(rectifier.rig().left.width_px).disparity_max_px);
   Window window;
   int moments = 0;
   for (int i = 0; i < kFrames; ++i) {
@@ -72,7 +72,7 @@ ViewRelation relateViews(const SequencePaths& paths, const FrameDepthOptions& de
                          SequenceOptions& options) {
   if (depth.source != "stereo" && !paths.depth.empty()) return {};
   if (paths.right.empty() || isPicture(paths.left)) return {};
-  const SynchronyMeter meter = measure(paths, options, depth.stereo.disparity_max_px);
+  const SynchronyMeter meter = measure(paths, options, depth.stereo);
   if (options.right_offset != "auto") return {meter.rowsAt(0), ""};
   const ViewSynchrony found = meter.result();
   options.right_offset = std::to_string(found.right_offset);

@@ -22,6 +22,8 @@ FrameDepth::FrameDepth(const StereoCalibration& calibration, const FrameDepthOpt
       rectifier_(calibration),
       stage_(makeStage(options.stereo, rectifier_.rig())) {
   options.validate();
+  options_.stereo = options.stereo.forWidth(rig().left.width_px);
+  options_.stereo.validate();
   if (options.source == "files") requireRectified();
 }
 

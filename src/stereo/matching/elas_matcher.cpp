@@ -97,8 +97,9 @@ DisparityMap ElasMatcher::match(const GrayImage& left_image, const GrayImage& ri
   requireRectifiedPair(left_image, right_image);
   StageClock clock;
   const MatchableViews views = matchableViews(left_image, right_image, ignored);
-  DisparityMap map = matchPyramid(views.left, views.right, ignored, options_,
-                                  options_.elas.coarser_levels, kEverything, clock);
+  DisparityMap map =
+      matchPyramid(views.left, views.right, ignored, options_.forWidth(left_image.width_px),
+                   options_.elas.coarser_levels, kEverything, clock);
   dropMasked(ignored.left, &map.disparity_px);
   removeDark(map.disparity_px, views.left, options_.darkest_gray, options_.dark_margin_px);
   clock.lap("dark");

@@ -144,8 +144,9 @@ OnnxMatcher::OnnxMatcher(const StereoOptions& options)
     : options_(options), network_(options.model, inputOf(options.model_input)) {}
 
 void OnnxMatcher::prepare(int width_px, int height_px) {
-  network_.prepare(width_px, height_px, options_.disparity_max_px);
-  network_.prepare(width_px / 2, height_px / 2, options_.disparity_max_px);
+  const int max_px = options_.forWidth(width_px).disparity_max_px;
+  network_.prepare(width_px, height_px, max_px);
+  network_.prepare(width_px / 2, height_px / 2, max_px);
 }
 
 DisparityMap OnnxMatcher::match(const GrayImage& left, const GrayImage& right,
@@ -180,7 +181,7 @@ DisparityMap OnnxMatcher::matchColour(const StereoPair& pair, const ViewMasks& i
       scale.at(u, v) = scaleDifference(found, half, u, v);
     }
   });
-  dropDenied(left_right, ignored, options_, &map.disparity_px);
+  dropDenied(left_right, ignored, options_.forWidth(width), &map.disparity_px);
   for (std::size_t i = 0; i < left_right.size(); ++i)  // rejected pixels say nothing of others
     if (std::isnan(map.disparity_px.values[i]))
       left_right.values[i] = scale.values[i] = kNotMeasured<float>;

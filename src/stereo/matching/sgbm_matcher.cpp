@@ -21,7 +21,8 @@ DisparityMap SgbmMatcher::match(const GrayImage& left_image, const GrayImage& ri
   requireRectifiedPair(left_image, right_image);
   const auto [left, right, masks] = matchableViews(left_image, right_image, ignored);
   StageClock clock;
-  const int count = (options_.disparity_max_px - options_.disparity_min_px + 16) / 16 * 16;
+  const int max_px = options_.forWidth(left_image.width_px).disparity_max_px;
+  const int count = (max_px - options_.disparity_min_px + 16) / 16 * 16;
   const int block = options_.sgbm_block_px, area = block * block;
   const auto sgbm = cv::StereoSGBM::create(options_.disparity_min_px, count, block, 8 * area,
                                            32 * area, 1, 63, 10, 100, 2);

@@ -122,7 +122,7 @@ struct StereoOptions {
   std::string model;                   // of "onnx": the network's file
   std::string model_input = "levels";  // input range for the levels 0 to 255
   int disparity_min_px = 0;
-  int disparity_max_px = 255;
+  int disparity_max_px = 0;                // 0: 255 or two fifths of the width
   static constexpr int darkest_gray = 10;  // darker pixels cannot be matched …
   int dark_margin_px = 4;                  // … nor those this close to them
   // measured pixels this close to a depth step are removed …
@@ -135,6 +135,16 @@ struct StereoOptions {
   static constexpr int sgbm_block_px = 5;
 
   static constexpr int kLargestDisparityPx = 1023;
+
+  /// With the largest disparity in images of this width: nearer tissue is in three fifths of both
+  /// images at most. Small images keep the range of larger ones, which costs little and denies more
+  /// wrong matches.
+  StereoOptions forWidth(int width_px) const {
+    StereoOptions options = *this;
+    if (disparity_max_px == 0)
+      options.disparity_max_px = std::clamp(2 * width_px / 5 - 1, 255, kLargestDisparityPx);
+    return options;
+  }
 
   /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;

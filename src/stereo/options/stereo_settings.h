@@ -25,8 +25,8 @@ void describe(Visitor& v, StereoOptions& o) {
   v("stereo.model_input", o.model_input, oneOf({"levels", "unit", "imagenet"}),
     "the network takes 0 to 255, 0 to 1, or ImageNet's mean 0 and deviation 1");
   v("stereo.disparity_min_px", o.disparity_min_px, atLeast(0), "smallest disparity sought");
-  v("stereo.disparity_max_px", o.disparity_max_px, between(1, StereoOptions::kLargestDisparityPx),
-    "largest disparity sought; above disparity_min_px");
+  v("stereo.disparity_max_px", o.disparity_max_px, between(0, StereoOptions::kLargestDisparityPx),
+    "largest disparity sought; above disparity_min_px; 0: 255 or two fifths of the width");
   describe(v, o.elas);
   describe(v, o.smoothing);
 }
