@@ -84,6 +84,18 @@ TEST(RowAlignment, FindsRowsEightPixelsOff) {
   }
 }
 
+TEST(RowAlignment, TriesTheExpectedRowsFirst) {
+  const auto scene = misaligned(7.6, 0.002);
+  for (const RowPlane& expected : {RowPlane{7.6, 0.002, 0}, RowPlane{6.5, 0, 0}}) {
+    const AlignedPair aligned =
+        alignRows({test::colourOf(scene.left), test::colourOf(scene.right)}, 100, {}, expected);
+    ASSERT_TRUE(aligned.removed);
+    EXPECT_NEAR(aligned.before.shift_px(), 7.6, 0.2);
+    const RowAlignment after = measureRowAlignment(scene.left, toGray(aligned.pair.right), 100);
+    EXPECT_LT(after.mean_row_difference_px, 0.15);
+  }
+}
+
 /// Columns and rows around the centre.
 GrayImage middleOf(const GrayImage& image, int width_px, int height_px) {
   GrayImage middle(width_px, height_px);

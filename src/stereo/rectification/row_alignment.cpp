@@ -26,6 +26,14 @@ double rollOf(const RowPlane& expected, int width_px) {
              : expected.per_column;
 }
 
+/// After the image is moved.
+RowPlane remainderOf(const RowPlane& expected, const RowAlignment& moved) {
+  if (!expected.isKnown()) return expected;
+  return {expected.centre_px - moved.model[0],
+          expected.per_column - moved.model[1] / moved.half_width_px,
+          expected.per_row - moved.model[2] / moved.half_width_px};
+}
+
 AlignedPair grayPair(StereoPair rectified, const ViewMasks& ignored) {
   AlignedPair aligned;
   aligned.left_gray = toGray(rectified.left);
@@ -73,7 +81,8 @@ AlignedPair alignRows(StereoPair rectified, int disparity_max_px, const ViewMask
   RowAlignment whole = aligned.before;
   for (int pass = 0; pass < kPasses; ++pass) {
     const RowAlignment rest =
-        meter.measure(moveRows(aligned.right_gray, whole), moveMask(ignored.right, whole));
+        meter.measure(moveRows(aligned.right_gray, whole), moveMask(ignored.right, whole),
+                      remainderOf(expected, whole));
     if (!rest.known()) break;
     for (std::size_t k = 0; k < whole.model.size(); ++k) whole.model[k] += rest.model[k];
   }

@@ -79,12 +79,12 @@ std::optional<RowMatch> matchRow(const GradientView& left, const GradientView& r
                   point.v_px};
 }
 
-/// With many matches near their own row, farther rows are not needed: what difference they have is
-/// measured by these.
-bool isInReach(const std::vector<RowMatch>& matches) {
+/// With many matches near the row that was tried, farther rows are not needed: what difference they
+/// have is measured by these.
+bool isInReach(const std::vector<RowMatch>& matches, int row_offset) {
   if (matches.size() < kMany) return false;
   double sum_px = 0;
-  for (const RowMatch& m : matches) sum_px += std::abs(m.difference_px);
+  for (const RowMatch& m : matches) sum_px += std::abs(m.difference_px - row_offset);
   return sum_px < kInReachPx * static_cast<double>(matches.size());
 }
 
@@ -99,6 +99,11 @@ bool hasModelInReach(const std::vector<RowMatch>& matches, const RowAlignment& s
     rest_sum_px += std::abs(m.difference_px - model_px);
   }
   return std::max(model_sum_px, rest_sum_px) < kInReachPx * static_cast<double>(matches.size());
+}
+
+/// The row that is tried first.
+int firstOffset(const RowPlane& expected) {
+  return static_cast<int>(std::lround(expected.centre_px));
 }
 
 }  // namespace
@@ -125,26 +130,28 @@ GradientImage RowMeter::gradientOf(const GrayImage& right, const Mask& ignored) 
 RowAlignment RowMeter::measure(const GrayImage& right, const Mask& ignored,
                                const RowPlane& expected) {
   const GradientImage gradient = gradientOf(right, ignored);
-  const auto few = matchRows(gradient, 0, grid_px_ + grid_px_ / 2);
-  const bool is_enough = few.size() >= kPlenty && isInReach(few);
-  return fitRowModel(is_enough ? few : matchNearest(gradient), scale(), expected);
+  const int first = firstOffset(expected);
+  const auto few = matchRows(gradient, first, grid_px_ + grid_px_ / 2);
+  const bool is_enough = few.size() >= kPlenty && isInReach(few, first);
+  return fitRowModel(is_enough ? few : matchNearest(gradient, expected), scale(), expected);
 }
 
 std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignored) {
   return matchNearest(gradientOf(right, ignored));
 }
 
-std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right) {
-  const auto matches = matchRows(right, 0, grid_px_);
-  if (isInReach(matches)) return matches;
-  std::map<int, std::vector<RowMatch>> found{{0, matches}};
+std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right, const RowPlane& expected) {
+  const int first = firstOffset(expected);
+  const auto matches = matchRows(right, first, grid_px_);
+  if (isInReach(matches, first)) return matches;
+  std::map<int, std::vector<RowMatch>> found{{first, matches}};
   const auto matchesAt = [&](int offset) -> const std::vector<RowMatch>& {
     const auto [place, is_new] = found.try_emplace(offset);
     if (is_new) place->second = matchRows(right, offset, grid_px_);
     return place->second;
   };
   // The true rows give the most matches, except those that a roll moves further.
-  int best = 0;
+  int best = first;
   const auto compare = [&](int offset, double least_gain) {
     const auto count = static_cast<double>(matchesAt(offset).size());
     if (count > least_gain * static_cast<double>(matchesAt(best).size())) best = offset;
@@ -158,7 +165,7 @@ std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right) {
     // Weak texture has matches in its own row alone, which may be one between the trials.
     for (const int between : {best - 1, best + 1}) compare(between, kManyMore);
   };
-  if (!hasModelInReach(matches, scale())) search();
+  if (!expected.isKnown() && !hasModelInReach(matches, scale())) search();
   std::vector<RowMatch> nearest = matchesAt(best);
   for (const int neighbour : {best - kCoarseOffset, best + kCoarseOffset}) {
     const std::vector<RowMatch>& more = matchesAt(neighbour);

@@ -23,7 +23,7 @@ class RowMeter {
   std::vector<RowMatch> match(const GrayImage& right, const Mask& ignored = {});
 
   /// The smooth row difference of the matches, of which rows that correspond need only half; where
-  /// nothing matches, the expected one.
+  /// nothing matches, the expected one. Known rows are not searched for.
   RowAlignment measure(const GrayImage& right, const Mask& ignored = {},
                        const RowPlane& expected = {});
 
@@ -32,7 +32,7 @@ class RowMeter {
 
  private:
   GradientImage gradientOf(const GrayImage& right, const Mask& ignored) const;
-  std::vector<RowMatch> matchNearest(const GradientImage& right);
+  std::vector<RowMatch> matchNearest(const GradientImage& right, const RowPlane& expected = {});
   std::vector<RowMatch> matchRows(const GradientImage& right, int row_offset, int grid_px);
 
   int margin_px_;
