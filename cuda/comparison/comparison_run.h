@@ -204,12 +204,9 @@ class ComparisonRun final : public FrameComparer {
     return error;
   }
   ViewEvidence viewOf() const {
-    EvidenceVotes votes;
-    votes.compared_px = totals().compared_px;
-    votes.agreeing_px = totals().agreeing_px;
-    const BlockSums* blocks = blocksAt(totals_.data(), frame_.evidence);
-    for (std::size_t b = 0; b < frame_.blocks(); ++b) votes.add(BlockCorrelation(blocks[b]));
-    return evidenceOf(votes);
+    const BlockSums* sums = blocksAt(totals_.data(), frame_.evidence);
+    EvidenceBlocks blocks{frame_.block_columns, {sums, sums + frame_.blocks()}};
+    return evidenceOf(totals().compared_px, totals().agreeing_px, std::move(blocks));
   }
   static InnovationField innovationOf(const std::vector<InnovationSums>& nodes,
                                       const InnovationSums& frame) {

@@ -70,8 +70,10 @@ class BlockCorrelation {
     }
   }
 
+  int points() const { return points_; }
+  bool hasEnoughPoints() const { return points_ >= kFewestPoints; }
   bool textured() const {
-    return points_ >= kFewestPoints &&
+    return hasEnoughPoints() &&
            model_sq_ / points_ - std::pow(model_ / points_, 2) > kLeastVariance;
   }
   /// At the position with the highest correlation.

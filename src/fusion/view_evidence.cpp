@@ -1,6 +1,7 @@
 #include "fusion/view_evidence.h"
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.h"
@@ -9,6 +10,10 @@
 
 namespace softscope {
 namespace {
+
+struct PixelVotes {
+  int compared = 0, agreeing = 0;
+};
 
 class ViewComparison {
  public:
@@ -23,25 +28,25 @@ class ViewComparison {
         shift_px_(evidenceShiftPx(states.width_px)) {}
 
   int rows() const { return (states_.height_px + block_px_ - 1) / block_px_; }
+  int columns() const { return (states_.width_px + block_px_ - 1) / block_px_; }
 
-  EvidenceVotes rowOfBlocks(int row) const {
-    EvidenceVotes votes;
-    for (int u0 = 0; u0 < states_.width_px; u0 += block_px_) {
-      votes.add(blockAt(u0, row * block_px_, &votes));
-    }
+  PixelVotes addRowOfBlocks(int row, BlockCorrelation* blocks) const {
+    PixelVotes votes;
+    for (int u0 = 0; u0 < states_.width_px; u0 += block_px_)
+      *blocks++ = blockAt(u0, row * block_px_, &votes);
     return votes;
   }
 
  private:
-  BlockCorrelation blockAt(int u0, int v0, EvidenceVotes* votes) const {
+  BlockCorrelation blockAt(int u0, int v0, PixelVotes* votes) const {
     BlockCorrelation block;
     for (int v = v0; v < std::min(v0 + block_px_, states_.height_px); ++v)
       for (int u = u0; u < std::min(u0 + block_px_, states_.width_px); ++u) {
         if (states_.at(u, v) != PixelState::kAccepted) continue;
         const int point = drawn_.pointAt(u, v);
         if (point < 0) continue;
-        ++votes->compared_px;
-        votes->agreeing_px += depthAgrees(point, u, v);
+        ++votes->compared;
+        votes->agreeing += depthAgrees(point, u, v);
         if (!observation_.colour.empty())
           block.add(toGray(model_.colours[static_cast<std::size_t>(point)]), observation_.colour, u,
                     v, shift_px_);
@@ -65,6 +70,28 @@ class ViewComparison {
   const int block_px_, shift_px_;
 };
 
+bool mostPointsAreInFullBlocks(const EvidenceBlocks& all) {
+  int points = 0, in_full = 0;
+  for (const BlockCorrelation& block : all.blocks) {
+    points += block.points();
+    if (block.hasEnoughPoints()) in_full += block.points();
+  }
+  return 2 * in_full >= points;
+}
+
+/// Each block is that of 2 x 2.
+EvidenceBlocks pooled(const EvidenceBlocks& fine) {
+  const int rows = static_cast<int>(fine.blocks.size()) / fine.columns;
+  EvidenceBlocks coarse{(fine.columns + 1) / 2, {}};
+  coarse.blocks.resize(static_cast<std::size_t>(coarse.columns) *
+                       static_cast<std::size_t>((rows + 1) / 2));
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < fine.columns; ++column)
+      coarse.blocks[static_cast<std::size_t>(row / 2 * coarse.columns + column / 2)] +=
+          fine.blocks[static_cast<std::size_t>(row * fine.columns + column)];
+  return coarse;
+}
+
 }  // namespace
 
 double ViewEvidence::agreement() const {
@@ -73,12 +100,17 @@ double ViewEvidence::agreement() const {
   return std::min(depth_share, std::max(0.0, (image_share - kChance) / (1 - kChance)));
 }
 
-ViewEvidence evidenceOf(const EvidenceVotes& votes) {
+ViewEvidence evidenceOf(int compared_px, int agreeing_px, EvidenceBlocks all) {
+  while (all.blocks.size() > 1 && !mostPointsAreInFullBlocks(all)) all = pooled(all);
   ViewEvidence evidence;
-  evidence.blocks = votes.blocks;
-  if (votes.compared_px > 0)
-    evidence.depth_share = static_cast<double>(votes.agreeing_px) / votes.compared_px;
-  if (votes.blocks > 0) evidence.image_share = static_cast<double>(votes.in_place) / votes.blocks;
+  int in_place = 0;
+  for (const BlockCorrelation& block : all.blocks) {
+    if (!block.textured()) continue;
+    ++evidence.blocks;
+    in_place += block.bestInPlace();
+  }
+  if (compared_px > 0) evidence.depth_share = static_cast<double>(agreeing_px) / compared_px;
+  if (evidence.blocks > 0) evidence.image_share = static_cast<double>(in_place) / evidence.blocks;
   return evidence;
 }
 
@@ -88,19 +120,20 @@ ViewEvidence viewEvidence(const DrawnPoints& drawn, const Observation& observati
   observation.validate();
   requireStates(states, observation);
   const ViewComparison comparison(drawn, observation, states, options);
-  std::vector<EvidenceVotes> rows(static_cast<std::size_t>(comparison.rows()));
+  const auto rows = static_cast<std::size_t>(comparison.rows());
+  const auto columns = static_cast<std::size_t>(comparison.columns());
+  std::vector<PixelVotes> votes(rows);
+  EvidenceBlocks blocks{comparison.columns(), std::vector<BlockCorrelation>(rows * columns)};
   parallelRanges(comparison.rows(), 1, [&](int begin, int end) {
-    for (int row = begin; row < end; ++row)
-      rows[static_cast<std::size_t>(row)] = comparison.rowOfBlocks(row);
+    for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row)
+      votes[row] = comparison.addRowOfBlocks(static_cast<int>(row), &blocks.blocks[row * columns]);
   });
-  EvidenceVotes all;
-  for (const EvidenceVotes& row : rows) {
-    all.compared_px += row.compared_px;
-    all.agreeing_px += row.agreeing_px;
-    all.blocks += row.blocks;
-    all.in_place += row.in_place;
+  PixelVotes all;
+  for (const PixelVotes& row : votes) {
+    all.compared += row.compared;
+    all.agreeing += row.agreeing;
   }
-  return evidenceOf(all);
+  return evidenceOf(all.compared, all.agreeing, std::move(blocks));
 }
 
 }  // namespace softscope

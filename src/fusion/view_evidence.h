@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/hd.h"
 #include "fusion/block_correlation.h"
@@ -36,17 +37,14 @@ SOFTSCOPE_HD inline bool depthsAgree(float model_mm, float measured_mm, float si
 /// Shift of blocks for an image of that width: 8 px of 640.
 inline int evidenceShiftPx(int width_px) { return std::max(3, width_px / 80); }
 
-/// Sums over blocks of the image, in any order.
-struct EvidenceVotes {
-  int compared_px = 0, agreeing_px = 0, blocks = 0, in_place = 0;
-
-  void add(const BlockCorrelation& block) {
-    if (!block.textured()) return;
-    ++blocks;
-    in_place += block.bestInPlace();
-  }
+/// Blocks of the image, row by row.
+struct EvidenceBlocks {
+  int columns;
+  std::vector<BlockCorrelation> blocks;
 };
-ViewEvidence evidenceOf(const EvidenceVotes& votes);
+/// Of the sums over an image. Where most points are in blocks of too few, as the model is sparse,
+/// four blocks become one.
+ViewEvidence evidenceOf(int compared_px, int agreeing_px, EvidenceBlocks blocks);
 
 /// For the model rendered from the pose of the observation: compares, over the accepted
 /// pixels, its depth, to `options.kEdgeStep` of the depth or three standard errors,

@@ -232,10 +232,14 @@ bool Reconstructor::confirm(FrameRecord& record) {
   record.evidence = backend_->confirm(scope_.world_from_left);
   const ViewEvidence& view = record.evidence.view;
   if (view.agreement() >= gate_.min_confidence) return true;
+  const std::string pose = "from the pose that was found, ";
+  if (view.blocks == 0)
+    return reject(record, FrameStatus::kUnconfirmed,
+                  pose + "the model has no texture to compare with the image");
   return reject(record, FrameStatus::kUnconfirmed,
-                text("from the pose that was found, the model's depth agrees with the frame on ",
-                     100 * view.depth_share, " % of the pixels and its image in ",
-                     100 * view.image_share, " % of the blocks (11 % by chance)"));
+                text(pose, "the model's depth agrees with the frame on ", 100 * view.depth_share,
+                     " % of the pixels and its image in ", 100 * view.image_share,
+                     " % of the blocks (11 % by chance)"));
 }
 
 void Reconstructor::fuse(FrameStatus status, FrameRecord& record) {

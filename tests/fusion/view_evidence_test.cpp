@@ -67,6 +67,17 @@ TEST(ViewEvidence, RefusesAPoseThatIsThreeMillimetresOff) {
   EXPECT_LT(evidenceAt(model, shot, turned).agreement(), 0.2);       // its centre stays where it is
 }
 
+// From 17 mm, points of a model seen from 55 mm are 3.3 px apart: too few for blocks of 16 px.
+TEST(ViewEvidence, ComparesASparseModelInLargerBlocks) {
+  const PointModel model = modelOf(texturedShot(test::shifted(0, 0, 0)));
+  const Eigen::Isometry3d near = test::shifted(0, 0, 38);
+  const test::Shot shot = texturedShot(near);
+  const ViewEvidence evidence = evidenceAt(model, shot, near);
+  EXPECT_GT(evidence.blocks, 30);
+  EXPECT_GT(evidence.agreement(), 0.9);
+  EXPECT_LT(evidenceAt(model, shot, test::shifted(1, 0, 38)).agreement(), 0.2);
+}
+
 TEST(ViewEvidence, RefusesAWrongDistance) {
   const PointModel model = modelOf(texturedShot(test::shifted(0, 0, 0)));
   const test::Shot shot = texturedShot(test::shifted(0, 0, 0));
