@@ -21,9 +21,8 @@ FrameDepth::FrameDepth(const StereoCalibration& calibration, const FrameDepthOpt
       rows_(calibration.rows),
       rectifier_(calibration),
       stage_(makeStage(options.stereo, rectifier_.rig())) {
-  options.validate();
   options_.stereo = options.stereo.forWidth(rig().left.width_px);
-  options_.stereo.validate();
+  options_.validate();
   if (options.source == "files") requireRectified();
 }
 

@@ -29,9 +29,9 @@ double rollOf(const RowPlane& expected, int width_px) {
 /// After the image is moved.
 RowPlane remainderOf(const RowPlane& expected, const RowAlignment& moved) {
   if (!expected.isKnown()) return expected;
-  return {expected.centre_px - moved.model[0],
-          expected.per_column - moved.model[1] / moved.half_width_px,
-          expected.per_row - moved.model[2] / moved.half_width_px};
+  const RowPlane gone = moved.plane();
+  return {expected.centre_px - gone.centre_px, expected.per_column - gone.per_column,
+          expected.per_row - gone.per_row};
 }
 
 AlignedPair grayPair(StereoPair rectified, const ViewMasks& ignored) {

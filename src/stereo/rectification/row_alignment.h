@@ -29,6 +29,8 @@ struct RowAlignment {
   }
   double shift_px() const { return model[0]; }
   double tilt_px_per_px() const { return model[1] / half_width_px; }
+  /// The model without its curvature.
+  RowPlane plane() const { return {model[0], tilt_px_per_px(), model[2] / half_width_px}; }
   double at(double u_px, double v_px) const {
     const double x = (u_px - centre_u_px) / half_width_px, y = (v_px - centre_v_px) / half_width_px;
     return model[0] + model[1] * x + model[2] * y + model[3] * x * x + model[4] * x * y +

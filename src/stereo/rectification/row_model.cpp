@@ -164,8 +164,7 @@ RowPlane fitRowPlane(const std::vector<RowMatch>& matches, RowAlignment scale) {
         equations.normal.topLeftCorner<3, 3>().ldlt().solve(equations.rhs.head<3>());
     std::copy_n(solved.data(), 3, scale.model.begin());
   }
-  return {scale.model[0], scale.model[1] / scale.half_width_px,
-          scale.model[2] / scale.half_width_px};
+  return scale.plane();
 }
 
 }  // namespace softscope
