@@ -94,8 +94,7 @@ class ComparisonRun final : public FrameComparer {
       found.model.gain = {gainOf(totals().gain[0]), gainOf(totals().gain[1]),
                           gainOf(totals().gain[2])};
     if (asked.anchors)
-      found.model.anchored =
-          AnchorAgreement(frame_.width, frame_.height, blocksAt(totals_.data(), frame_.anchors));
+      found.model.anchored = AnchorAgreement(frame_.width, fetched(frame_.anchors));
     if (totals().frame.weight != 0) found.model.innovation = innovationOf(nodes, totals().frame);
     return found;
   }
@@ -187,11 +186,13 @@ class ComparisonRun final : public FrameComparer {
   const ComparisonTotals& totals() const {
     return *reinterpret_cast<const ComparisonTotals*>(totals_.data());
   }
-  /// Of what was fetched; `blocks` are those on the device.
-  const BlockSums* blocksAt(const char* fetched, const BlockSums* blocks) const {
+  /// `sums` are those on the device.
+  CorrelationBlocks fetched(const BlockSums* sums) const {
     const auto offset =
-        reinterpret_cast<const char*>(blocks) - reinterpret_cast<const char*>(frame_.totals);
-    return reinterpret_cast<const BlockSums*>(fetched + offset);
+        reinterpret_cast<const char*>(sums) - reinterpret_cast<const char*>(frame_.totals);
+    const auto* here =
+        reinterpret_cast<const BlockSums*>(static_cast<const char*>(totals_.data()) + offset);
+    return CorrelationBlocks::from(here, frame_.width, frame_.height);
   }
 
   static BackProjectionError errorOf(const ComparisonTotals& totals) {
@@ -204,9 +205,7 @@ class ComparisonRun final : public FrameComparer {
     return error;
   }
   ViewEvidence viewOf() const {
-    const BlockSums* sums = blocksAt(totals_.data(), frame_.evidence);
-    EvidenceBlocks blocks{frame_.block_columns, {sums, sums + frame_.blocks()}};
-    return evidenceOf(totals().compared_px, totals().agreeing_px, std::move(blocks));
+    return evidenceOf(totals().compared_px, totals().agreeing_px, fetched(frame_.evidence));
   }
   static InnovationField innovationOf(const std::vector<InnovationSums>& nodes,
                                       const InnovationSums& frame) {

@@ -6,7 +6,7 @@
 
 #include "core/image.h"
 #include "core/point_model.h"
-#include "fusion/block_correlation.h"
+#include "fusion/correlation_blocks.h"
 #include "fusion/observation.h"
 #include "fusion/visibility.h"
 
@@ -23,8 +23,8 @@ class AnchorAgreement {
   AnchorAgreement(const PointModel& model, const Observation& observation,
                   const Visibility& visibility);
 
-  /// From the sums of all blocks, row by row, of an image of this size.
-  AnchorAgreement(int width_px, int height_px, const BlockSums* blocks);
+  /// From the sums of all blocks of an image of that width.
+  AnchorAgreement(int width_px, CorrelationBlocks blocks);
   static constexpr int kSlipPx = 1;  // of the texture in the image that is no change of the tissue
 
   /// Whether the anchors of the block that holds the pixel (index into the image) agree.
@@ -37,7 +37,6 @@ class AnchorAgreement {
   int imageWidthPx() const { return width_px_; }
 
  private:
-  AnchorAgreement(int width_px, int height_px);
   std::size_t blockOf(std::int32_t pixel) const {
     const int column = pixel % width_px_ / block_px_, row = pixel / width_px_ / block_px_;
     return static_cast<std::size_t>(row * agrees_.width_px + column);

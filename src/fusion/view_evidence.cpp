@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "fusion/block_correlation.h"
+#include "fusion/correlation_blocks.h"
 #include "fusion/visibility.h"
 
 namespace softscope {
@@ -26,9 +26,6 @@ class ViewComparison {
         depth_step_(static_cast<float>(options.kEdgeStep)),
         block_px_(BlockCorrelation::blockPx(states.width_px)),
         shift_px_(evidenceShiftPx(states.width_px)) {}
-
-  int rows() const { return (states_.height_px + block_px_ - 1) / block_px_; }
-  int columns() const { return (states_.width_px + block_px_ - 1) / block_px_; }
 
   PixelVotes addRowOfBlocks(int row, BlockCorrelation* blocks) const {
     PixelVotes votes;
@@ -70,28 +67,6 @@ class ViewComparison {
   const int block_px_, shift_px_;
 };
 
-bool mostPointsAreInFullBlocks(const EvidenceBlocks& all) {
-  int points = 0, in_full = 0;
-  for (const BlockCorrelation& block : all.blocks) {
-    points += block.points();
-    if (block.hasEnoughPoints()) in_full += block.points();
-  }
-  return 2 * in_full >= points;
-}
-
-/// Each block is that of 2 x 2.
-EvidenceBlocks pooled(const EvidenceBlocks& fine) {
-  const int rows = static_cast<int>(fine.blocks.size()) / fine.columns;
-  EvidenceBlocks coarse{(fine.columns + 1) / 2, {}};
-  coarse.blocks.resize(static_cast<std::size_t>(coarse.columns) *
-                       static_cast<std::size_t>((rows + 1) / 2));
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < fine.columns; ++column)
-      coarse.blocks[static_cast<std::size_t>(row / 2 * coarse.columns + column / 2)] +=
-          fine.blocks[static_cast<std::size_t>(row * fine.columns + column)];
-  return coarse;
-}
-
 }  // namespace
 
 double ViewEvidence::agreement() const {
@@ -100,8 +75,8 @@ double ViewEvidence::agreement() const {
   return std::min(depth_share, std::max(0.0, (image_share - kChance) / (1 - kChance)));
 }
 
-ViewEvidence evidenceOf(int compared_px, int agreeing_px, EvidenceBlocks all) {
-  while (all.blocks.size() > 1 && !mostPointsAreInFullBlocks(all)) all = pooled(all);
+ViewEvidence evidenceOf(int compared_px, int agreeing_px, CorrelationBlocks all) {
+  all = withEnoughPoints(std::move(all));
   ViewEvidence evidence;
   int in_place = 0;
   for (const BlockCorrelation& block : all.blocks) {
@@ -120,11 +95,10 @@ ViewEvidence viewEvidence(const DrawnPoints& drawn, const Observation& observati
   observation.validate();
   requireStates(states, observation);
   const ViewComparison comparison(drawn, observation, states, options);
-  const auto rows = static_cast<std::size_t>(comparison.rows());
-  const auto columns = static_cast<std::size_t>(comparison.columns());
-  std::vector<PixelVotes> votes(rows);
-  EvidenceBlocks blocks{comparison.columns(), std::vector<BlockCorrelation>(rows * columns)};
-  parallelRanges(comparison.rows(), 1, [&](int begin, int end) {
+  CorrelationBlocks blocks = CorrelationBlocks::over(states.width_px, states.height_px);
+  const auto columns = static_cast<std::size_t>(blocks.columns);
+  std::vector<PixelVotes> votes(static_cast<std::size_t>(blocks.rows()));
+  parallelRanges(blocks.rows(), 1, [&](int begin, int end) {
     for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row)
       votes[row] = comparison.addRowOfBlocks(static_cast<int>(row), &blocks.blocks[row * columns]);
   });

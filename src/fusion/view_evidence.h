@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "core/hd.h"
-#include "fusion/block_correlation.h"
+#include "fusion/correlation_blocks.h"
 #include "fusion/drawn_points.h"
 #include "fusion/observation.h"
 
@@ -37,14 +36,8 @@ SOFTSCOPE_HD inline bool depthsAgree(float model_mm, float measured_mm, float si
 /// Shift of blocks for an image of that width: 8 px of 640.
 inline int evidenceShiftPx(int width_px) { return std::max(3, width_px / 80); }
 
-/// Blocks of the image, row by row.
-struct EvidenceBlocks {
-  int columns;
-  std::vector<BlockCorrelation> blocks;
-};
-/// Of the sums over an image. Where most points are in blocks of too few, as the model is sparse,
-/// four blocks become one.
-ViewEvidence evidenceOf(int compared_px, int agreeing_px, EvidenceBlocks blocks);
+/// Of the sums over an image.
+ViewEvidence evidenceOf(int compared_px, int agreeing_px, CorrelationBlocks blocks);
 
 /// For the model rendered from the pose of the observation: compares, over the accepted
 /// pixels, its depth, to `options.kEdgeStep` of the depth or three standard errors,
