@@ -34,16 +34,36 @@ TEST(GraphBuilder, CoversTheModelAtTheSpacing) {
   EXPECT_LT(graph.size(), 1.4 * 40 * 30 / 13.9);  // borders take half hexagons
 }
 
+/// Nodes by their distance from a point, nearest first.
+std::vector<std::pair<double, int>> nodesByDistance(const WarpGraph& graph,
+                                                    const Eigen::Vector3f& point_mm) {
+  std::vector<std::pair<double, int>> sorted;
+  for (std::size_t j = 0; j < graph.size(); ++j)
+    sorted.emplace_back((graph.positions_mm[j] - point_mm.cast<double>()).norm(), j);
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+/// Share of the first points that are bound to the four nearest nodes.
+double boundToTheNearest(const PointModel& model, std::size_t points, const WarpGraph& graph) {
+  int right = 0;
+  for (std::size_t i = 0; i < points; ++i) {
+    const auto sorted = nodesByDistance(graph, model.positions_mm[i]);
+    NodeStencil nearest;
+    for (std::size_t k = 0; k < nearest.size(); ++k) nearest[k] = sorted[k].second;
+    std::sort(nearest.begin(), nearest.end());
+    right += graph.stencils[model.bindings[i].stencil] == nearest;
+  }
+  return right / static_cast<double>(points);
+}
+
 TEST(GraphBuilder, BindsToTheFourNearestWithThePapersWeights) {
   PointModel model = scenes::makeHill(40, 30, 0.4);
   const WarpGraph graph = scenes::bindGraph(&model);
   for (std::size_t i = 0; i < model.size(); i += 17) {
     const PointBinding& binding = model.bindings[i];
     ASSERT_TRUE(binding.bound());
-    std::vector<std::pair<double, int>> sorted;
-    for (std::size_t j = 0; j < graph.size(); ++j)
-      sorted.emplace_back((graph.positions_mm[j] - model.positions_mm[i].cast<double>()).norm(), j);
-    std::sort(sorted.begin(), sorted.end());
+    const auto sorted = nodesByDistance(graph, model.positions_mm[i]);
     double total = 0;
     for (int k = 0; k < 4; ++k) total += 1 - sorted[k].first / sorted[4].first;
     for (int k = 0; k < 4; ++k) {
@@ -171,6 +191,22 @@ TEST(GraphBuilder, GrowsWithoutRenumberingNodes) {
     used[binding.stencil] = 1;
   }
   EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);  // no stencil outlives its points
+  EXPECT_GT(boundToTheNearest(model, model.size(), graph),
+            0.99);  // cells decide what a new node is near to
+}
+
+// Of a strip as wide as one node, a node more than a reach away is among the four nearest.
+TEST(GraphBuilder, KnowsAllNodesWhereANewOneReaches) {
+  const PointModel whole = scenes::makeHill(80, 2, 0.4);
+  PointModel model;
+  const Eigen::Isometry3d unmoved = Eigen::Isometry3d::Identity();
+  addHalf(whole, false, unmoved, &model);
+  const std::size_t old_points = model.size();
+  WarpGraph graph = scenes::bindGraph(&model);
+  const double before = boundToTheNearest(model, old_points, graph);
+  addHalf(whole, true, unmoved, &model);
+  EXPECT_GT(growGraph(GraphOptions(), &model, &graph).nodes_added, 5);
+  EXPECT_GT(boundToTheNearest(model, old_points, graph), before);
 }
 
 TEST(GraphBuilder, NewNodesHaveMovedLikeTheTissueBesideThem) {

@@ -39,17 +39,18 @@ ChangingRegion::ChangingRegion(const Positions& positions_mm, const std::vector<
     : cubes_(reach_mm) {
   constexpr int kAround = 2;
   CellNumbering centres(reach_mm);
-  std::uint64_t key = 0;
+  Cube cube;
   for (const int point : unbound) {
-    if (!cubes_.keyOf(positions_mm[point], &key)) continue;
-    centres.findOrAdd(key);
+    if (!cubes_.cubeOf(positions_mm[point], &cube)) continue;
+    centres.findOrAdd(cube);
     box_mm_.extend(positions_mm[point]);
   }
   for (int c = 0; c < centres.size(); ++c)
     for (int dz = -kAround; dz <= kAround; ++dz)
       for (int dy = -kAround; dy <= kAround; ++dy)
         for (int dx = -kAround; dx <= kAround; ++dx)
-          cubes_.findOrAdd(CellNumbering::shifted(centres.key(c), dx, dy, dz));
+          cubes_.findOrAdd(
+              {centres.cube(c).x + dx, centres.cube(c).y + dy, centres.cube(c).z + dz});
   const Eigen::Vector3f margin_mm =
       Eigen::Vector3f::Constant(static_cast<float>((kAround + 2) * reach_mm));
   box_mm_ = {box_mm_.min() - margin_mm, box_mm_.max() + margin_mm};
@@ -166,16 +167,16 @@ class Growth {
         points_(region_.pointsInside(positions_mm)),
         cells_(positions_mm, points_, options.cell_mm),
         reach_(cells_, options),
-        near_new_node_(static_cast<std::size_t>(cells_.size()), 0) {}
+        near_new_node_(static_cast<std::size_t>(cells_.size()), 0) {
+    for (std::size_t j = 0; j < graph_.size(); ++j) {
+      const Eigen::Vector3f position_mm = graph_.positions_mm[j].cast<float>();
+      if (region_.contains(position_mm)) waiting_.push_back({static_cast<int>(j), position_mm});
+    }
+  }
 
   GraphGrowth run() {
     const std::vector<NodeStencil> stencils_before = graph_.stencils;
-    std::vector<NodeReach::Start> starts;
-    for (std::size_t j = 0; j < graph_.size(); ++j) {
-      const Eigen::Vector3f position_mm = graph_.positions_mm[j].cast<float>();
-      if (region_.contains(position_mm)) starts.push_back({static_cast<int>(j), position_mm});
-    }
-    reach_.spreadAll(starts);
+    spreadNodesWithin(1, centresOfUnbound());
     addNodes();
     bindPoints();
     result_.structure_changed =
@@ -189,6 +190,34 @@ class Growth {
   }
 
  private:
+  /// Of the cells with unbound points.
+  Positions centresOfUnbound() const {
+    std::vector<char> is_listed(static_cast<std::size_t>(cells_.size()), 0);
+    Positions centres;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const int cell = cells_.cellOf(static_cast<int>(i));
+      if (cell < 0 || bindings_[points_[i]].bound() || std::exchange(is_listed[cell], 1)) continue;
+      centres.push_back(cells_.centre(cell));
+    }
+    return centres;
+  }
+
+  /// Walks are most of the work: only nodes that can reach one of the places walk.
+  void spreadNodesWithin(double reaches, const Positions& places_mm) {
+    constexpr double kSurely = 1.001;
+    const double distance_mm = kSurely * reaches * NodeReach::reachMm(options_);
+    const auto limit_mm2 = static_cast<float>(distance_mm * distance_mm);
+    const auto stays = [&](const NodeReach::Start& node) {
+      return std::none_of(places_mm.begin(), places_mm.end(), [&](const Eigen::Vector3f& place_mm) {
+        return (place_mm - node.position_mm).squaredNorm() <= limit_mm2;
+      });
+    };
+    const auto first = std::stable_partition(waiting_.begin(), waiting_.end(), stays);
+    if (first == waiting_.end()) return;
+    reach_.spreadAll({first, waiting_.end()});
+    waiting_.erase(first, waiting_.end());
+  }
+
   /// New tissue moved like the nearest known tissue: neither was visible before.
   NodeTransform motionNear(const Eigen::Vector3d& position_mm) const {
     const std::size_t nearest = nearestNode(graph_, graph_.size(), position_mm);
@@ -207,6 +236,8 @@ class Growth {
       if (cell < 0 || bindings_[points_[i]].bound() || reach_.covered(cell)) continue;
       const int node = static_cast<int>(graph_.size());
       const Eigen::Vector3f position_mm = positions_mm_[cells_.representative(cell)];
+      // The cells that the new node reaches need all of their nodes.
+      spreadNodesWithin(2, {position_mm});
       graph_.since_reference.push_back(motionNear(position_mm.cast<double>()));
       graph_.positions_mm.push_back(position_mm.cast<double>());
       graph_.transforms.emplace_back();
@@ -252,6 +283,7 @@ class Growth {
   std::vector<int> points_;
   SurfaceCells cells_;
   NodeReach reach_;
+  std::vector<NodeReach::Start> waiting_;  // known nodes of the region that did not walk yet
   std::vector<char> near_new_node_;
   GraphGrowth result_;
 };

@@ -18,7 +18,7 @@ NodeReach::NodeReach(const SurfaceCells& cells, const GraphOptions& options)
       near_(static_cast<std::size_t>(cells.size())),
       visits_(cells.size()) {}
 
-/// Walks are independent; the list of a cell receives nodes in their order.
+/// Walks are independent.
 void NodeReach::spreadAll(const std::vector<Start>& starts) {
   std::vector<std::vector<Reached>> walks(starts.size());
   parallelRanges(static_cast<int>(starts.size()), kWalksPerTask, [&](int begin, int end) {
@@ -77,10 +77,14 @@ std::vector<NodeReach::Reached> NodeReach::walk(const Eigen::Vector3f& position_
   return reached;
 }
 
-/// Insertion into a short sorted list; equal distances keep the lower node first. Returns where.
+/// Insertion into a short sorted list; of equal distances the lower node is first. Returns where.
 int NodeReach::enter(int node, float distance_mm, Near* near) const {
+  const auto isBefore = [&](int i) {
+    return near->distance_mm[i] == distance_mm ? near->nodes[i] < node
+                                               : near->distance_mm[i] < distance_mm;
+  };
   int at = near->count;
-  while (at > 0 && near->distance_mm[at - 1] > distance_mm) --at;
+  while (at > 0 && !isBefore(at - 1)) --at;
   if (at == kNearest) return at;
   near->count = std::min(near->count + 1, kNearest);
   for (int i = near->count - 1; i > at; --i) {

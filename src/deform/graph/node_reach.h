@@ -34,7 +34,7 @@ class NodeReach {
     Eigen::Vector3f position_mm;
   };
 
-  /// spread() from each, in order, in parallel.
+  /// spread() from each, in parallel.
   void spreadAll(const std::vector<Start>& starts);
   /// Walks from the node over touching cells and adds it to the lists of close nodes.
   /// Returns the cells where it is one of those that determine the skinning weights.

@@ -6,74 +6,12 @@
 #include "core/parallel.h"
 
 namespace softscope {
-namespace {
-
-constexpr int kBits = 21;
-constexpr std::int64_t kOrigin = std::int64_t{1} << (kBits - 1);
-constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
-
-std::uint64_t pack(std::int64_t x, std::int64_t y, std::int64_t z) {
-  return (static_cast<std::uint64_t>(z) & kMask) << (2 * kBits) |
-         (static_cast<std::uint64_t>(y) & kMask) << kBits | (static_cast<std::uint64_t>(x) & kMask);
-}
-
-}  // namespace
 
 int cellsPerThread(int cells) { return std::max(kCellsPerTask, cells / threadCount() + 1); }
 
-CellNumbering::CellNumbering(double cell_mm, int expected_cells) : inverse_cell_(1 / cell_mm) {
-  std::size_t capacity = 64;
-  while (capacity < 2 * static_cast<std::size_t>(expected_cells)) capacity *= 2;
-  slots_.assign(capacity, -1);
-}
-
-bool CellNumbering::keyOf(const Eigen::Vector3f& point_mm, std::uint64_t* key) const {
-  constexpr double kEnd = static_cast<double>(kOrigin - 64), kFirst = 1 - kEnd;
-  std::int64_t index[3];
-  for (int c = 0; c < 3; ++c) {
-    const double cell = static_cast<double>(point_mm[c]) * inverse_cell_;
-    if (!(cell >= kFirst && cell < kEnd)) return false;  // NaN too
-    // std::floor is a library call on processors without SSE4.1.
-    const std::int64_t whole = static_cast<std::int64_t>(cell);
-    index[c] = whole - (static_cast<double>(whole) > cell ? 1 : 0) + kOrigin;
-  }
-  *key = pack(index[0], index[1], index[2]);
-  return true;
-}
-
-std::uint64_t CellNumbering::shifted(std::uint64_t key, int dx, int dy, int dz) {
-  return pack(static_cast<std::int64_t>(key & kMask) + dx,
-              static_cast<std::int64_t>((key >> kBits) & kMask) + dy,
-              static_cast<std::int64_t>((key >> (2 * kBits)) & kMask) + dz);
-}
-
-std::size_t CellNumbering::slotOf(std::uint64_t key) const {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ull) >> 32) & mask;
-  while (slots_[slot] >= 0 && keys_[slots_[slot]] != key) slot = (slot + 1) & mask;
-  return slot;
-}
-
-int CellNumbering::find(std::uint64_t key) const { return slots_[slotOf(key)]; }
-
-int CellNumbering::findOrAdd(std::uint64_t key) {
-  const std::size_t slot = slotOf(key);
-  if (slots_[slot] >= 0) return slots_[slot];
-  const int cell = size();
-  slots_[slot] = cell;
-  keys_.push_back(key);
-  if (2 * keys_.size() > slots_.size()) grow();
-  return cell;
-}
-
-void CellNumbering::grow() {
-  slots_.assign(2 * slots_.size(), -1);
-  for (int cell = 0; cell < size(); ++cell) slots_[slotOf(keys_[cell])] = cell;
-}
-
 SurfaceCells::SurfaceCells(const std::vector<Eigen::Vector3f>& positions_mm,
                            const std::vector<int>& points, double cell_mm)
-    : cell_mm_(cell_mm), table_(cell_mm, static_cast<int>(points.size() / 16)) {
+    : cell_mm_(cell_mm), table_(cell_mm) {
   numberCubes(positions_mm, points);
   findCentres(positions_mm, points);
   findNeighbours();
@@ -94,13 +32,13 @@ void SurfaceCells::numberCubes(const std::vector<Eigen::Vector3f>& positions_mm,
     });
   };
   forEachPoint([&](int part, int i) {
-    std::uint64_t key = 0;
-    cell_of_[i] = table_.keyOf(positions_mm[points[i]], &key) ? own[part].findOrAdd(key) : -1;
+    Cube cube;
+    cell_of_[i] = table_.cubeOf(positions_mm[points[i]], &cube) ? own[part].findOrAdd(cube) : -1;
   });
   std::vector<std::vector<int>> numbers(own.size());
   for (std::size_t part = 0; part < own.size(); ++part)
-    for (int cube = 0; cube < own[part].size(); ++cube)
-      numbers[part].push_back(table_.findOrAdd(own[part].key(cube)));
+    for (int cell = 0; cell < own[part].size(); ++cell)
+      numbers[part].push_back(table_.findOrAdd(own[part].cube(cell)));
   forEachPoint([&](int part, int i) {
     if (cell_of_[i] >= 0) cell_of_[i] = numbers[part][cell_of_[i]];
   });
@@ -136,28 +74,24 @@ void SurfaceCells::findCentres(const std::vector<Eigen::Vector3f>& positions_mm,
 void SurfaceCells::findNeighbours() {
   neighbours_.resize(static_cast<std::size_t>(size()));
   parallelRanges(size(), kCellsPerTask, [&](int begin, int end) {
+    NeighbourFinder finder(table_);
     for (int cell = begin; cell < end; ++cell) {
       Neighbours& around = neighbours_[cell];
-      for (int dz = -1; dz <= 1; ++dz)
-        for (int dy = -1; dy <= 1; ++dy)
-          for (int dx = -1; dx <= 1; ++dx) {
-            const int other = table_.find(CellNumbering::shifted(table_.key(cell), dx, dy, dz));
-            if (other >= 0 && other != cell) around.cells[around.count++] = other;
-          }
+      finder.visit(cell, [&](int other) { around.cells[around.count++] = other; });
     }
   });
 }
 
 int SurfaceCells::cellNear(const Eigen::Vector3f& position_mm) const {
-  std::uint64_t key = 0;
-  if (!table_.keyOf(position_mm, &key)) return -1;
-  const int own = table_.find(key);
+  Cube cube;
+  if (!table_.cubeOf(position_mm, &cube)) return -1;
+  const int own = table_.find(cube);
   if (own >= 0) return own;
   int closest = -1;
   for (int dz = -1; dz <= 1; ++dz)
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
-        const int other = table_.find(CellNumbering::shifted(key, dx, dy, dz));
+        const int other = table_.find({cube.x + dx, cube.y + dy, cube.z + dz});
         if (other < 0) continue;
         if (closest < 0 || (centre(other) - position_mm).squaredNorm() <
                                (centre(closest) - position_mm).squaredNorm())

@@ -3,8 +3,9 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstdint>
 #include <vector>
+
+#include "deform/graph/cell_numbering.h"
 
 namespace softscope {
 
@@ -14,50 +15,6 @@ inline constexpr int kCellsPerTask = 512;
 /// Grain of loops over cells in which each task visits all
 /// data and handles its own part: at most one task per thread.
 int cellsPerThread(int cells);
-
-/// Numbers 0, 1, 2 … of cubes of a regular grid in order of first use.
-class CellNumbering {
- public:
-  explicit CellNumbering(double cell_mm, int expected_cells = 1024);
-
-  /// False if the point is not finite, or outside of the grid (2^20 cells).
-  bool keyOf(const Eigen::Vector3f& point_mm, std::uint64_t* key) const;
-  /// Key of the cube at offset (dx, dy, dz).
-  static std::uint64_t shifted(std::uint64_t key, int dx, int dy, int dz);
-
-  int find(std::uint64_t key) const;  // -1 for a cube without a number
-  int findOrAdd(std::uint64_t key);
-  int size() const { return static_cast<int>(keys_.size()); }
-  std::uint64_t key(int cell) const { return keys_[cell]; }
-
- private:
-  std::size_t slotOf(std::uint64_t key) const;
-  void grow();
-
-  double inverse_cell_;
-  std::vector<int> slots_;  // cell number, or -1
-  std::vector<std::uint64_t> keys_;
-};
-
-/// Looks up points in sequence. Neighbours in the
-/// list mostly share a cube, which is cached.
-class CellFinder {
- public:
-  explicit CellFinder(const CellNumbering& table) : table_(table) {}
-  /// Cell of the point, -1 if none.
-  int find(const Eigen::Vector3f& point_mm) {
-    std::uint64_t key = 0;
-    if (!table_.keyOf(point_mm, &key)) return -1;
-    if (key != last_key_) last_cell_ = table_.find(key);
-    last_key_ = key;
-    return last_cell_;
-  }
-
- private:
-  const CellNumbering& table_;
-  std::uint64_t last_key_ = ~std::uint64_t{0};  // no cube has it: keys take 63 bits
-  int last_cell_ = -1;
-};
 
 /// Cubes that contain points; cubes that touch (also at a corner) are neighbours.
 class SurfaceCells {
