@@ -8,13 +8,19 @@
 
 namespace softscope {
 
-/// The upper of the two middle values for an even count; NaN for an empty list.
+/// The upper of the two middle values for an even count; of one value or more, which it reorders.
+template <class Iterator>
+auto medianWithin(Iterator begin, Iterator end) {
+  const Iterator middle = begin + (end - begin) / 2;
+  std::nth_element(begin, middle, end);
+  return *middle;
+}
+
+/// The same; NaN for an empty list.
 template <class Number>
 Number medianOf(std::vector<Number> values) {
   if (values.empty()) return std::numeric_limits<Number>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return medianWithin(values.begin(), values.end());
 }
 
 /// Value of rank floor(share * (count - 1)), where rank 0 is

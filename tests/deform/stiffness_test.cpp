@@ -28,7 +28,7 @@ MatchedStrain strainAfter(const scenes::Motion& truth, double noise_share, int w
     match.target_mm += static_cast<float>(noise_share) * error_mm;
     if (wrong > 0 && ++at % wrong == 0) match.target_mm += 4 * error_mm.normalized();
   }
-  return strainOfMatches(model, graph, CarriedMatches(model, graph, matches));
+  return strainOfMatches(graph, CarriedMatches(model, graph, matches));
 }
 
 Eigen::Vector3d staysInPlace(const Eigen::Vector3d& point_mm) { return point_mm; }
@@ -69,7 +69,7 @@ TEST(Stiffness, FewMatchesOrEdgesSayNothing) {
   PointModel model = scenes::makeHill(20, 16, 0.5);
   const WarpGraph graph = scenes::bindGraph(&model);
   const std::vector<KeyPointMatch> none;
-  EXPECT_EQ(strainOfMatches(model, graph, CarriedMatches(model, graph, none)).edges, 0);
+  EXPECT_EQ(strainOfMatches(graph, CarriedMatches(model, graph, none)).edges, 0);
 }
 
 TEST(Stiffness, IsBounded) {
@@ -83,9 +83,9 @@ TEST(Stiffness, IsOneIfOptionsDoNotFollowTheTissue) {
   const std::vector<KeyPointMatch> matches = scenes::makeMatches(model, scenes::smoothBend, 2);
   const CarriedMatches carried(model, graph, matches);
   DeformOptions options;
-  EXPECT_LT(tissueStiffness(options, model, graph, carried), 0.1);
+  EXPECT_LT(tissueStiffness(options, graph, carried), 0.1);
   options.solver.follows_tissue = false;
-  EXPECT_EQ(tissueStiffness(options, model, graph, carried), 1);
+  EXPECT_EQ(tissueStiffness(options, graph, carried), 1);
 }
 
 /// Mean error after one frame whose matches are wrong by `sigma_mm` per axis.

@@ -88,6 +88,13 @@ bool usable(const PointModel& model, const WarpGraph& graph, const KeyPointMatch
          match.target_mm.allFinite() && match.sqrt_information.allFinite();
 }
 
+/// Node that carries most of a point.
+std::int32_t strongestNode(const WarpGraph& graph, const PointBinding& binding) {
+  const auto strongest = std::max_element(binding.weights.begin(), binding.weights.end());
+  return graph
+      .stencils[static_cast<std::size_t>(binding.stencil)][strongest - binding.weights.begin()];
+}
+
 /// Buffers of one thread for the targets of the candidates of one stencil.
 struct Inquiry {
   std::vector<Eigen::Vector3f> warped_mm, warped_normals;
@@ -166,11 +173,17 @@ void toPlaces(std::vector<std::int32_t>* keys, std::vector<int>* start) {
 
 CarriedMatches::CarriedMatches(const PointModel& model, const WarpGraph& graph,
                                const std::vector<KeyPointMatch>& given)
-    : matches(given), place(matches.size()), start(graph.stencils.size() + 1, 0) {
+    : matches(given),
+      place(matches.size(), PointBinding::kUnbound),
+      node(place),
+      start(graph.stencils.size() + 1, 0) {
   parallelRanges(static_cast<int>(matches.size()), kMatchesPerTask, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i)
-      place[i] = usable(model, graph, matches[i]) ? model.bindings[matches[i].model_point].stencil
-                                                  : PointBinding::kUnbound;
+    for (int i = begin; i < end; ++i) {
+      if (!usable(model, graph, matches[i])) continue;
+      const PointBinding& binding = model.bindings[matches[i].model_point];
+      place[i] = binding.stencil;
+      node[i] = strongestNode(graph, binding);
+    }
   });
   toPlaces(&place, &start);
 }

@@ -64,6 +64,7 @@ struct CarriedMatches {
 
   const std::vector<KeyPointMatch>& matches;
   std::vector<std::int32_t> place;  // of each match; negative: not finite, or of an unbound point
+  std::vector<std::int32_t> node;   // that carries most of each match; negative likewise
   std::vector<int> start;           // places; one per stencil of the graph, and the end
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/median.h"
 #include "core/parallel.h"
+#include "core/value_of_rank.h"
 
 namespace softscope {
 namespace {
@@ -18,25 +19,13 @@ constexpr double kStiffHalves = 2.5;  // strain, in squares of the noise, of hal
 constexpr double kLeastStiffness = 1.0 / 64;
 constexpr int kNodesPerMedians = 16;  // of a task
 
-/// Node that carries most of a point.
-std::int32_t strongestNode(const WarpGraph& graph, const PointBinding& binding) {
-  const auto strongest = std::max_element(binding.weights.begin(), binding.weights.end());
-  return graph
-      .stencils[static_cast<std::size_t>(binding.stencil)][strongest - binding.weights.begin()];
-}
-
 /// Whitened residuals of the matches, by node.
 class NodeResiduals {
  public:
-  NodeResiduals(const PointModel& model, const WarpGraph& graph, const CarriedMatches& carried)
+  NodeResiduals(const WarpGraph& graph, const CarriedMatches& carried)
       : start_(graph.size() + 1, 0), residuals_(static_cast<std::size_t>(carried.count())) {
     const int count = static_cast<int>(carried.matches.size());
-    std::vector<std::int32_t> place(carried.matches.size(), -1);
-    parallelRanges(count, kMatchesPerTask, [&](int begin, int end) {
-      for (int i = begin; i < end; ++i)
-        if (carried.place[i] >= 0)
-          place[i] = strongestNode(graph, model.bindings[carried.matches[i].model_point]);
-    });
+    std::vector<std::int32_t> place = carried.node;
     toPlaces(&place, &start_);
     parallelRanges(count, kMatchesPerTask, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) {
@@ -55,35 +44,46 @@ class NodeResiduals {
 
   /// Mean square of the distances from the centres of the nodes, by their median; 0 without any.
   double noiseSquare() const {
-    std::vector<float> distances;
-    distances.reserve(distances_.size());
-    for (std::size_t j = 0; j < centres_.size(); ++j)
-      if (sufficeAt(j))
-        distances.insert(distances.end(), distances_.begin() + start_[j],
-                         distances_.begin() + start_[j + 1]);
-    if (distances.empty()) return 0;
-    const double median = medianOf(std::move(distances));
+    SizeCounts counts;
+    forSufficient([&](float distance) { counts.add(distance); });
+    if (counts.total() == 0) return 0;
+    const SizeCounts::Place place = counts.placeOfMedian();
+    std::vector<float> in_bin;
+    forSufficient([&](float distance) {
+      if (SizeCounts::binOf(distance) == place.bin) in_bin.push_back(distance);
+    });
+    const double median = SizeCounts::valueAt(place, &in_bin);
     return kMeanOfMedianSquare * median * median;
   }
 
  private:
+  /// Calls visit(distance) for the matches of all nodes with enough of them.
+  template <class Visit>
+  void forSufficient(const Visit& visit) const {
+    for (std::size_t j = 0; j < centres_.size(); ++j)
+      if (sufficeAt(j))
+        for (int i = start_[j]; i < start_[j + 1]; ++i) visit(distances_[i]);
+  }
   void findCentres() {
     centres_.assign(start_.size() - 1, Eigen::Vector3f::Zero());
     distances_.resize(residuals_.size());
     parallelRanges(static_cast<int>(centres_.size()), kNodesPerMedians, [&](int begin, int end) {
+      std::vector<float> values;
       for (std::size_t j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j)
-        if (sufficeAt(j)) findCentre(j);
+        if (sufficeAt(j)) findCentre(j, &values);
     });
   }
-  void findCentre(std::size_t node) {
-    std::vector<float> values(static_cast<std::size_t>(countAt(node)));
+  /// Overwrites *values and reuses its memory.
+  void findCentre(std::size_t node, std::vector<float>* values) {
+    const auto count = static_cast<std::size_t>(countAt(node));
+    values->resize(count);
     Eigen::Vector3f& centre = centres_[node];
     const Eigen::Vector3f* own = &residuals_[start_[node]];
     for (int axis = 0; axis < 3; ++axis) {
-      for (std::size_t i = 0; i < values.size(); ++i) values[i] = own[i][axis];
-      centre[axis] = medianOf(values);
+      for (std::size_t i = 0; i < count; ++i) (*values)[i] = own[i][axis];
+      centre[axis] = medianWithin(values->begin(), values->end());
     }
-    for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t i = 0; i < count; ++i)
       distances_[static_cast<std::size_t>(start_[node]) + i] = (own[i] - centre).norm();
   }
 
@@ -94,9 +94,8 @@ class NodeResiduals {
 
 }  // namespace
 
-MatchedStrain strainOfMatches(const PointModel& model, const WarpGraph& graph,
-                              const CarriedMatches& carried) {
-  const NodeResiduals residuals(model, graph, carried);
+MatchedStrain strainOfMatches(const WarpGraph& graph, const CarriedMatches& carried) {
+  const NodeResiduals residuals(graph, carried);
   MatchedStrain strain;
   strain.noise_square = residuals.noiseSquare();
   double sum = 0;
@@ -121,10 +120,10 @@ double stiffnessOf(const MatchedStrain& strain) {
   return std::max(kLeastStiffness, 1 / (1 + ratio * ratio));
 }
 
-double tissueStiffness(const DeformOptions& options, const PointModel& model,
-                       const WarpGraph& graph, const CarriedMatches& carried) {
+double tissueStiffness(const DeformOptions& options, const WarpGraph& graph,
+                       const CarriedMatches& carried) {
   if (!options.solver.follows_tissue) return 1;
-  return stiffnessOf(strainOfMatches(model, graph, carried));
+  return stiffnessOf(strainOfMatches(graph, carried));
 }
 
 }  // namespace softscope

@@ -2,7 +2,6 @@
 // docs/energy.md (7c).
 #pragma once
 
-#include "core/point_model.h"
 #include "core/warp_graph.h"
 #include "deform/energy/constraints.h"
 #include "deform/options/deform_options.h"
@@ -19,14 +18,13 @@ struct MatchedStrain {
 
 /// Matches of a node: those whose strongest node it is. Sources are taken as they are: transforms
 /// of the graph are those of rebase().
-MatchedStrain strainOfMatches(const PointModel& model, const WarpGraph& graph,
-                              const CarriedMatches& carried);
+MatchedStrain strainOfMatches(const WarpGraph& graph, const CarriedMatches& carried);
 
 /// Factor of w_reg; 1 where edges are few.
 double stiffnessOf(const MatchedStrain& strain);
 
 /// The same from the matches; 1 if the options do not follow the tissue.
-double tissueStiffness(const DeformOptions& options, const PointModel& model,
-                       const WarpGraph& graph, const CarriedMatches& carried);
+double tissueStiffness(const DeformOptions& options, const WarpGraph& graph,
+                       const CarriedMatches& carried);
 
 }  // namespace softscope

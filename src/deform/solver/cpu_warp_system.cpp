@@ -43,8 +43,7 @@ class CpuWarpSystem final : public WarpSystem {
     const CarriedMatches carried(model, graph, seen.matches);
     makeConstraints(model, graph, candidates_, carried, options_.correspondence_weight,
                     &constraints_);
-    constraints_.stiffness.assign(graph.edges.size(),
-                                  tissueStiffness(options_, model, graph, carried));
+    constraints_.stiffness.assign(graph.edges.size(), tissueStiffness(options_, graph, carried));
     classifyNodes(model, graph, candidates_, options_.seen_stiffness, &constraints_);
     expectShape(graph, options_.shape_memory, &constraints_.expected);
     lever_mm_ = meanEdgeLength(graph);

@@ -53,7 +53,7 @@ class DeviceWarpSystem final : public WarpSystem {
           parallelInvoke([&] { takeMatches(model, carried); },
                          [&] { loads = takePoints(model, seen); });
         },
-        [&] { stiffness = tissueStiffness(options_, model, graph, carried); });
+        [&] { stiffness = tissueStiffness(options_, graph, carried); });
     constraints_.stiffness.assign(graph.edges.size(), stiffness);
     device_->setSurface(surfaceOf(seen));
     takeNodes(loads);
@@ -151,6 +151,7 @@ class DeviceWarpSystem final : public WarpSystem {
   void takeNodes(const NodeLoads& loads) {
     classifyNodes(*graph_, loads.all, loads.seen, options_.seen_stiffness, &constraints_);
     std::vector<double> edge_weights;
+    edge_weights.reserve(graph_->edges.size());
     for (std::size_t e = 0; e < graph_->edges.size(); ++e)
       edge_weights.push_back(constraints_.stiffness[e] * graph_->edges[e].weight);
     device_->setNodes({graph_->positions_mm.data(), graph_->transforms.data(),
