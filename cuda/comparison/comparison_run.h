@@ -190,8 +190,7 @@ class ComparisonRun final : public FrameComparer {
   CorrelationBlocks fetched(const BlockSums* sums) const {
     const auto offset =
         reinterpret_cast<const char*>(sums) - reinterpret_cast<const char*>(frame_.totals);
-    const auto* here =
-        reinterpret_cast<const BlockSums*>(static_cast<const char*>(totals_.data()) + offset);
+    const auto* here = reinterpret_cast<const BlockSums*>(totals_.data() + offset);
     return CorrelationBlocks::from(here, frame_.width, frame_.height);
   }
 

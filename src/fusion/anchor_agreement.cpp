@@ -33,16 +33,18 @@ AnchorAgreement::AnchorAgreement(const PointModel& model, const Observation& obs
   CorrelationBlocks all = CorrelationBlocks::over(image.width_px, image.height_px);
   const int count = static_cast<int>(model.size());
   const int tasks = (count + kPointsPerTask - 1) / kPointsPerTask;
-  std::vector<CorrelationBlocks> parts(static_cast<std::size_t>(tasks), all);
+  std::vector<CorrelationBlocks> parts(static_cast<std::size_t>(tasks));
   parallelRanges(tasks, 1, [&](int begin, int end) {
-    for (int task = begin; task < end; ++task)
+    for (int task = begin; task < end; ++task) {
+      CorrelationBlocks& part = parts[static_cast<std::size_t>(task)];
+      part = CorrelationBlocks::over(image.width_px, image.height_px);
       for (int k = task * kPointsPerTask; k < std::min(count, (task + 1) * kPointsPerTask); ++k) {
         const PointSight& point = visibility.points[static_cast<std::size_t>(k)];
         if (point.sight != Sight::kSeen) continue;
         const int u = point.pixel % image.width_px, v = point.pixel / image.width_px;
-        parts[static_cast<std::size_t>(task)].at(u, v).add(
-            model.anchors[static_cast<std::size_t>(k)], image, u, v, kSlipPx);
+        part.at(u, v).add(model.anchors[static_cast<std::size_t>(k)], image, u, v, kSlipPx);
       }
+    }
   });
   for (const CorrelationBlocks& part : parts)
     for (std::size_t block = 0; block < all.blocks.size(); ++block)

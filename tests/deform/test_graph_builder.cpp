@@ -118,6 +118,12 @@ void addHalf(const PointModel& whole, bool is_right, const Eigen::Isometry3d& mo
                  whole.colours[i], 1);
 }
 
+/// The graph of the left half of a model, which is added.
+WarpGraph bindLeftHalf(const PointModel& whole, PointModel* model) {
+  addHalf(whole, false, Eigen::Isometry3d::Identity(), model);
+  return scenes::bindGraph(model);
+}
+
 /// Islands of six nodes, of which each is one part: stencils connect neighbours.
 WarpGraph islands(int count) {
   WarpGraph graph;
@@ -169,12 +175,10 @@ TEST(GraphBuilder, TiesIslandsWhereTheyAreNearest) {
 TEST(GraphBuilder, GrowsWithoutRenumberingNodes) {
   const PointModel whole = scenes::makeHill(40, 20, 0.4);
   PointModel model;
-  const Eigen::Isometry3d unmoved = Eigen::Isometry3d::Identity();
-  addHalf(whole, false, unmoved, &model);
+  WarpGraph graph = bindLeftHalf(whole, &model);
   const std::size_t old_points = model.size();
-  WarpGraph graph = scenes::bindGraph(&model);
   const WarpGraph before = graph;
-  addHalf(whole, true, unmoved, &model);
+  addHalf(whole, true, Eigen::Isometry3d::Identity(), &model);
 
   const GraphGrowth growth = growGraph(GraphOptions(), &model, &graph);
 
@@ -199,12 +203,10 @@ TEST(GraphBuilder, GrowsWithoutRenumberingNodes) {
 TEST(GraphBuilder, KnowsAllNodesWhereANewOneReaches) {
   const PointModel whole = scenes::makeHill(80, 2, 0.4);
   PointModel model;
-  const Eigen::Isometry3d unmoved = Eigen::Isometry3d::Identity();
-  addHalf(whole, false, unmoved, &model);
+  WarpGraph graph = bindLeftHalf(whole, &model);
   const std::size_t old_points = model.size();
-  WarpGraph graph = scenes::bindGraph(&model);
   const double before = boundToTheNearest(model, old_points, graph);
-  addHalf(whole, true, unmoved, &model);
+  addHalf(whole, true, Eigen::Isometry3d::Identity(), &model);
   EXPECT_GT(growGraph(GraphOptions(), &model, &graph).nodes_added, 5);
   EXPECT_GT(boundToTheNearest(model, old_points, graph), before);
 }
@@ -212,8 +214,7 @@ TEST(GraphBuilder, KnowsAllNodesWhereANewOneReaches) {
 TEST(GraphBuilder, NewNodesHaveMovedLikeTheTissueBesideThem) {
   const PointModel whole = scenes::makeHill(40, 20, 0.4);
   PointModel model;
-  addHalf(whole, false, Eigen::Isometry3d::Identity(), &model);
-  WarpGraph graph = scenes::bindGraph(&model);
+  WarpGraph graph = bindLeftHalf(whole, &model);
   const std::size_t old_nodes = graph.size();
   const Eigen::Isometry3d motion = scenes::rigidMotion();
   scenes::moveNodes(motion, &graph);

@@ -44,26 +44,19 @@ class NodeResiduals {
 
   /// Mean square of the distances from the centres of the nodes, by their median; 0 without any.
   double noiseSquare() const {
-    SizeCounts counts;
-    forSufficient([&](float distance) { counts.add(distance); });
-    if (counts.total() == 0) return 0;
-    const SizeCounts::Place place = counts.placeOfMedian();
-    std::vector<float> in_bin;
-    forSufficient([&](float distance) {
-      if (SizeCounts::binOf(distance) == place.bin) in_bin.push_back(distance);
-    });
-    const double median = SizeCounts::valueAt(place, &in_bin);
+    std::vector<float> distances;
+    distances.reserve(distances_.size());
+    for (std::size_t j = 0; j < centres_.size(); ++j)
+      if (sufficeAt(j))
+        distances.insert(distances.end(), distances_.begin() + start_[j],
+                         distances_.begin() + start_[j + 1]);
+    if (distances.empty()) return 0;
+    const std::size_t middle = distances.size() / 2;
+    const double median = absoluteOfRank({std::move(distances)}, middle);
     return kMeanOfMedianSquare * median * median;
   }
 
  private:
-  /// Calls visit(distance) for the matches of all nodes with enough of them.
-  template <class Visit>
-  void forSufficient(const Visit& visit) const {
-    for (std::size_t j = 0; j < centres_.size(); ++j)
-      if (sufficeAt(j))
-        for (int i = start_[j]; i < start_[j + 1]; ++i) visit(distances_[i]);
-  }
   void findCentres() {
     centres_.assign(start_.size() - 1, Eigen::Vector3f::Zero());
     distances_.resize(residuals_.size());

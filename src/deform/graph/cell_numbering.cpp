@@ -43,7 +43,7 @@ int CellNumbering::find(const Cube& cube) const { return blockOf(cube)[insideBlo
 int CellNumbering::findOrAdd(const Cube& cube) {
   const std::uint64_t key = keyOfBlock(cube);
   if (last_block_ < 0 || keys_[static_cast<std::size_t>(last_block_)] != key)
-    last_block_ = findOrAddBlock(cube);
+    last_block_ = findOrAddBlock(key);
   int& cell = blocks_[static_cast<std::size_t>(last_block_)][insideBlock(cube)];
   if (cell >= 0) return cell;
   cell = size();
@@ -51,8 +51,7 @@ int CellNumbering::findOrAdd(const Cube& cube) {
   return cell;
 }
 
-int CellNumbering::findOrAddBlock(const Cube& cube) {
-  const std::uint64_t key = keyOfBlock(cube);
+int CellNumbering::findOrAddBlock(std::uint64_t key) {
   const std::size_t slot = slotOf(key);
   if (slots_[slot] >= 0) return slots_[slot];
   const int block = static_cast<int>(blocks_.size());

@@ -57,7 +57,7 @@ class CellNumbering {
   static constexpr int kOrigin = 1 << 20;
 
   std::size_t slotOf(std::uint64_t key) const;
-  int findOrAddBlock(const Cube& cube);
+  int findOrAddBlock(std::uint64_t key);
   void grow();
 
   double inverse_cell_;
@@ -87,21 +87,21 @@ class CellFinder {
   int last_cell_ = -1;
 };
 
-/// Looks up the cubes around cells in sequence: the blocks around the last one are cached.
+/// Looks up the cubes around others in sequence: the blocks around the last one are cached.
 class NeighbourFinder {
  public:
   explicit NeighbourFinder(const CellNumbering& table) : table_(table) {}
-  /// Numbers of the cubes that touch the cell's, also at a corner, without itself.
+  /// Numbers of the cubes that touch this one, also at a corner, without its own.
   template <class Visit>
-  void visit(int cell, const Visit& visit) {
-    const Cube& centre = table_.cube(cell);
+  void visit(const Cube& centre, const Visit& visit) {
     moveTo(centre);
     for (int dz = -1; dz <= 1; ++dz)
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
           const Cube cube{centre.x + dx, centre.y + dy, centre.z + dz};
+          if (cube == centre) continue;
           const int other = (*around_[blockAround(cube)])[CellNumbering::insideBlock(cube)];
-          if (other >= 0 && other != cell) visit(other);
+          if (other >= 0) visit(other);
         }
   }
 

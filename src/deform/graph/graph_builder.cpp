@@ -212,7 +212,7 @@ class Growth {
         return (place_mm - node.position_mm).squaredNorm() <= limit_mm2;
       });
     };
-    const auto first = std::stable_partition(waiting_.begin(), waiting_.end(), stays);
+    const auto first = std::partition(waiting_.begin(), waiting_.end(), stays);
     if (first == waiting_.end()) return;
     reach_.spreadAll({first, waiting_.end()});
     waiting_.erase(first, waiting_.end());

@@ -77,7 +77,7 @@ void SurfaceCells::findNeighbours() {
     NeighbourFinder finder(table_);
     for (int cell = begin; cell < end; ++cell) {
       Neighbours& around = neighbours_[cell];
-      finder.visit(cell, [&](int other) { around.cells[around.count++] = other; });
+      finder.visit(table_.cube(cell), [&](int other) { around.cells[around.count++] = other; });
     }
   });
 }
@@ -88,15 +88,11 @@ int SurfaceCells::cellNear(const Eigen::Vector3f& position_mm) const {
   const int own = table_.find(cube);
   if (own >= 0) return own;
   int closest = -1;
-  for (int dz = -1; dz <= 1; ++dz)
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int other = table_.find({cube.x + dx, cube.y + dy, cube.z + dz});
-        if (other < 0) continue;
-        if (closest < 0 || (centre(other) - position_mm).squaredNorm() <
-                               (centre(closest) - position_mm).squaredNorm())
-          closest = other;
-      }
+  NeighbourFinder(table_).visit(cube, [&](int other) {
+    if (closest < 0 ||
+        (centre(other) - position_mm).squaredNorm() < (centre(closest) - position_mm).squaredNorm())
+      closest = other;
+  });
   return closest;
 }
 
