@@ -112,7 +112,7 @@ struct SearchKernel {
     } else if constexpr (kPhase == 2) {
       for (int n = 0; n < kNodes; ++n) findSecondBest(c0, r0, n, lane, square);
     } else if constexpr (kPhase == 3) {
-      if (lane == 0) sortByRatio(square);
+      if (lane == 0) sortByRatio(c0, r0, square);
     } else if constexpr (kPhase % 2 == 0) {
       constexpr int kTry = (kPhase - kSearchPhases) / 2;
       if (square.done == 0 && kTry < square.count)
@@ -225,9 +225,9 @@ struct SearchKernel {
   }
 
   /// Equal ratios remain in raster order.
-  SOFTSCOPE_HD void sortByRatio(Square& square) const {
+  SOFTSCOPE_HD void sortByRatio(int c0, int r0, Square& square) const {
     for (int n = 0; n < kNodes; ++n) {
-      if (square.best[n] == kNoKey) continue;
+      if (square.best[n] == kNoKey || isAtRim(c0, r0, n, square)) continue;
       const float ratio =
           distanceRatio(static_cast<int>(square.best[n] >> 16), square.elsewhere[n]);
       if (!(ratio < max_ratio)) continue;
@@ -237,6 +237,12 @@ struct SearchKernel {
         square.order[k] = square.order[k - 1];
       square.order[k] = n;
     }
+  }
+
+  SOFTSCOPE_HD bool isAtRim(int c0, int r0, int n, const Square& square) const {
+    const NodeWindow window = windowOf(c0, r0, n, square);
+    return reach.isAtRim(columnAt(window, square.best[n]) - columnOf(c0, n) - square.shift_u[n],
+                         rowAt(window, square.best[n]) - rowOf(r0, n) - square.shift_v[n]);
   }
 
   /// Best node of the model around the predicted origin of the live node.

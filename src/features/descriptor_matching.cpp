@@ -90,7 +90,9 @@ class PairOfGrids {
                                 static_cast<int>(std::lround(shift.y())));
     window->compare(model_.descriptor(column, row), live_, column + nodes.x(), row + nodes.y(),
                     reach_.search);
-    if (!window->found()) return none;
+    if (!window->found() || reach_.isAtRim(window->bestColumn() - column - nodes.x(),
+                                           window->bestRow() - row - nodes.y()))
+      return none;
     const float ratio = distanceRatio(window->best(), window->secondBest(reach_.elsewhere));
     if (!(ratio < max_ratio_)) return none;
     return {window->bestColumn(), window->bestRow(), nodes, ratio, window->parabolaShift()};

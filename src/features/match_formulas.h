@@ -20,6 +20,12 @@ SOFTSCOPE_HD inline bool isDark(int gray, int darkest_gray) { return gray < dark
 /// The search's options in nodes of the grid.
 struct SearchReach {
   int search, elsewhere, mutual;
+
+  /// Whether a place, seen from the centre of the search, is at its rim: the distances beyond are
+  /// unknown, and mostly fall further.
+  SOFTSCOPE_HD bool isAtRim(int columns, int rows) const {
+    return columns == -search || columns == search || rows == -search || rows == search;
+  }
 };
 inline SearchReach searchReach(const MatcherOptions& options, int grid_px, double radius_px) {
   const auto nodes = [&](double px) { return static_cast<int>(std::lround(px / grid_px)); };

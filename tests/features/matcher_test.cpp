@@ -163,6 +163,25 @@ TEST(DenseSurfMatcher, FindsNoMoreThanItsReach) {
   EXPECT_EQ(found, 0);
 }
 
+TEST(DenseSurfMatcher, WhatLiesAtTheRimOfTheSearchIsNoMatch) {
+  test::WarpedPair pair = test::makeWarpedPair(0, 200, 150);
+  const GrayImage& model = pair.model.gray;
+  for (int v = 0; v < model.height_px; ++v)
+    for (int u = 0; u < model.width_px; ++u)
+      pair.live.gray.at(u, v) = model.at(std::max(u - 10, 0), v);
+  MatcherOptions options;
+  options.subpixel.method = "none";
+  const auto movedAbout10 = [&](double reach) {
+    options.reach = reach;
+    int found = 0;
+    for (const PixelMatch& match : matchBy(options, pair))
+      found += std::abs(match.live_px.x() - match.model_px.x() - 10) < 2;
+    return found;
+  };
+  EXPECT_EQ(movedAbout10(0.045), 0);  // 9 px, nearly there
+  EXPECT_GT(movedAbout10(0.06), 300);
+}
+
 TEST(DenseSurfMatcher, GivesOneMatchPerPlaceByRows) {
   const auto matches = matchBy({}, test::makeWarpedPair(4.0));
   for (std::size_t i = 1; i < matches.size(); ++i) {
