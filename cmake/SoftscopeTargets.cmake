@@ -39,12 +39,14 @@ function(softscope_cache_precompiled target)
     "$<$<COMPILE_LANG_AND_ID:CXX,Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 endfunction()
 
-# softscope_precompiled_headers(<target> <header>…): a target that parses these headers.
+# softscope_precompiled_headers(<target> <header>…): a target that parses these headers, those of Eigen
+# and of JSON, and instantiates what most files use of both.
 function(softscope_precompiled_headers target)
   add_library(${target} OBJECT ${SOFTSCOPE_ROOT}/cmake/precompiled_headers.cpp)
   target_link_libraries(${target} PRIVATE softscope_flags Eigen3::Eigen nlohmann_json::nlohmann_json)
   softscope_cache_precompiled(${target})
-  target_precompile_headers(${target} PRIVATE ${ARGN})
+  target_precompile_headers(${target} PRIVATE ${ARGN} <Eigen/Dense> <nlohmann/json.hpp>
+    ${SOFTSCOPE_ROOT}/cmake/common_templates.h)
 endfunction()
 
 # softscope_library(<folder> SOURCES … [LINKS …] [PRIVATE_LINKS …])
