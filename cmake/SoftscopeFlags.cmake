@@ -9,11 +9,13 @@ target_compile_options(softscope_flags INTERFACE
 --expt-relaxed-constexpr --diag-suppress=20012>")
 
 # vptr is left out: it wants type information that VTK and OpenCV keep to themselves. Assertions of
-# Eigen and the standard library are on, and Eigen's unset numbers are NaN.
+# Eigen and the standard library are on, and Eigen's unset numbers are NaN; UBSan passes by their
+# headers.
 if(SOFTSCOPE_SANITIZE)
   set(softscope_sanitizers -fsanitize=address,undefined -fno-sanitize=vptr)
   target_compile_options(softscope_flags INTERFACE
-    ${softscope_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    ${softscope_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/library_headers.txt>)
   target_compile_definitions(softscope_flags INTERFACE
     _GLIBCXX_ASSERTIONS EIGEN_INITIALIZE_MATRICES_BY_NAN)
   target_link_options(softscope_flags INTERFACE ${softscope_sanitizers})

@@ -85,9 +85,9 @@ function(softscope_kernels name)
   endforeach()
 endfunction()
 
-# softscope_inline(<folder>): for loops of many small Eigen operations. UBSan's checks make Eigen's
-# one-line functions too large for clang to inline by itself; inlined all the same, the simulator runs
-# 5 times as fast. Not for every folder: what includes JSON compiles 2 to 5 times as long.
+# softscope_inline(<folder>): for loops of many small Eigen operations. Sanitizers' checks make small
+# functions too large for clang to inline by itself; inlined all the same, the tests of the simulator
+# take less than half the time. Not for every folder: what includes JSON compiles 2 to 5 times as long.
 function(softscope_inline name)
   if(SOFTSCOPE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     target_compile_options(softscope_${name} PRIVATE "SHELL:-mllvm -inline-threshold=2000")
