@@ -9,7 +9,7 @@ usage: ./demo.sh [--no-install] [--help]
   Installs what is missing of packages.txt (as root or by sudo), builds build/release, examines the
   machine, measures the depth of data/demo_pair, simulates a clip of a living organ, reconstructs it,
   measures the error, draws it and writes a report; ends by naming what to look at in out/demo.
-  What was done before is not done again.
+  What takes long and was done before is not done again.
   --no-install   never calls apt-get
 EOF
 }

@@ -152,7 +152,7 @@ void bindReconstructor(py::module_& module) {
           },
           "sequence"_a, py::keep_alive<0, 1>(), py::keep_alive<0, 2>(),
           "for report in process(sequence): the frames from the sequence's next one on, in the "
-          "time of `softscope reconstruct`: the depth of two frames is measured ahead. An "
+          "time of `softscope reconstruct`: the depth of the next frames is measured ahead. An "
           "unreadable frame has a report with the reason. The loop may be left after any frame "
           "and continued with process(). InputError: images of another size than the "
           "calibration's, or deleted; OptionError: a frame of this index or a later one was "
