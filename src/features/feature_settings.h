@@ -16,7 +16,7 @@ template <class Visitor>
 void describe(Visitor& v, MatcherOptions& o) {
   v("matcher.method", o.method, oneOf(matcherMethods()),
     "matches of the model view in the left image; surf-off: none");
-  v("matcher.reach", o.reach, aboveUpTo(0, 1), "longest shift, as a share of the longer side");
+  v("matcher.reach", o.reach, aboveUpTo(0, 1), "shifts are below this share of the longer side");
   describe(v, o.subpixel);
 }
 

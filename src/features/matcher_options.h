@@ -44,7 +44,7 @@ struct MatcherOptions {
   static constexpr const char* kNoMatches = "surf-off";
 
   std::string method = kDenseSurf;               // one of matcherMethods()
-  double reach = 0.2;                            // longest shift, share of the image's longer side
+  double reach = 0.2;                            // shifts are below this share of the longer side
   static constexpr double kSearchRadiusPx = 12;  // around the prediction of the coarser level
   // squares of this size without a match use a coarser level
   static constexpr int kCoarseSpacingPx = 12;
