@@ -37,7 +37,7 @@ const char* const kEvaluateDetails =
     "error_histogram and worst_frames as SVG, PDF and PNG; errors.pvd shows the error of every\n"
     "point in ParaView, `softscope report DIR` makes a report of them.\n"
     "docs/evaluation.md defines every value.\n"
-    "--fail-if METRIC>LIMIT ends with exit code 1 if that is true, or if the metric is unknown;\n"
+    "--fail-if METRIC>LIMIT ends with exit code 1 if that is true, or if it was not measured;\n"
     "METRIC is a path in evaluation.json (surface.observed.p95_mm), or its last part.";
 
 class EvaluateCommand : public Command {

@@ -1,5 +1,6 @@
 // tests/toolkit/evaluation_frames_test.cpp: frames of a run that its evaluation counts.
 #include <algorithm>
+#include <sstream>
 
 #include "io/images/image_reader.h"
 #include "tests/toolkit/evaluation_fixture.h"
@@ -104,6 +105,50 @@ TEST_F(Evaluation, AClipWithoutTimestampsHasFramesOnEveryAxis) {
   const std::string page = pageOf(at("out"));
   EXPECT_THAT(page, testing::Not(HasSubstr("time [s]")));
   EXPECT_THAT(page, testing::Not(HasSubstr("mm/s")));
+}
+
+/// The lines of these numbers.
+std::string chosenLines(const std::string& text, const std::vector<int>& numbers) {
+  std::istringstream all(text);
+  std::string line, kept;
+  for (int k = 0; std::getline(all, line); ++k)
+    if (std::count(numbers.begin(), numbers.end(), k) != 0) kept += line + "\n";
+  return kept;
+}
+
+TEST_F(Evaluation, TruePosesBelongToTheFramesOfTheirTimes) {
+  write("truth/timestamps.txt", "0\n0.04\n0.08\n0.12\n0.16\n0.2\n");
+  const Json whole = evaluated();
+  const std::string truth = "truth/groundtruth/trajectory.txt";
+  write(truth, chosenLines(textOf(at(truth)), {0, 1, 3, 5}));  // its title, frames 0, 2, 4
+  const Json some = evaluated();
+  EXPECT_EQ(whole["camera"]["poses"], 6);
+  EXPECT_EQ(some["camera"]["poses"], 3);
+  EXPECT_NEAR(some["camera"]["pose"]["mean_mm"].get<double>(), 0.2, kFloats);  // 0, 0.2, 0.4
+  for (const std::size_t frame : {0u, 2u, 4u})
+    for (const char* value :
+         {"time_s", "mean_mm", "depth_mean_mm", "pose_error_mm", "track_mean_mm"})
+      EXPECT_EQ(some["frames"][frame][value], whole["frames"][frame][value]) << value;
+  EXPECT_TRUE(some["frames"][1]["pose_error_mm"].is_null());
+  EXPECT_THAT(some["warnings"].dump(), HasSubstr("3 frames of the run have no true pose"));
+}
+
+TEST_F(Evaluation, ATruePoseBetweenTheFramesIsRefused) {
+  write("truth/timestamps.txt", "0\n0.04\n0.08\n0.12\n0.16\n0.2\n");
+  write("truth/groundtruth/trajectory.txt", "0 0 0 0 0 0 0 1\n0.05 0 0 0 0 0 0 1\n");
+  expectRefused({"trajectory.txt", "0.05 s", "timestamps.txt", "2 poses of 6 frames"});
+}
+
+TEST_F(Evaluation, TheWorldOfARunBeginsWithItsFirstFusedFrame) {
+  fs::remove_all(at("run"));
+  makeWallRun(at("run"), kFrames, 1);
+  const Json later = evaluated();
+  write("run/trajectory.txt", "0 0 0 0 0 0 0 1\n" + textOf(at("run/trajectory.txt")));
+  write("run/frames.csv",
+        "frame,status\n0,skipped_depth\n1,started\n2,fused\n3,fused\n4,fused\n5,fused\n");
+  const Json skipped = evaluated();
+  EXPECT_EQ(skipped["camera"]["pose"], later["camera"]["pose"]);
+  EXPECT_EQ(skipped["camera"]["poses"], 5);
 }
 
 class EvaluationWithoutTruth : public InFolder {

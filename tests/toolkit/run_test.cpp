@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "io/files/file_lock.h"
+#include "io/images/image_reader.h"
+#include "io/images/image_writer.h"
 #include "support/in_folder.h"
 #include "tests/io/temporary_folder.h"
 #include "tests/toolkit/made_sequences.h"
@@ -100,6 +102,22 @@ TEST_F(RunOfAClip, SaysWhichFramesHaveNoPoseOfTheirOwn) {
   EXPECT_THAT(run.facts.text(), HasSubstr("4 of 4 fused"));
   EXPECT_THAT(told.warnings, Contains(HasSubstr("3 of 4 frames were fused at the last pose")));
   EXPECT_THAT(told.warnings, Not(Contains(HasSubstr("no motion of the scope"))));
+}
+
+TEST_F(RunOfAClip, SaysThatTheFirstImageCouldNotBeUsed) {
+  const std::string clip = makeClip(4);
+  for (const char* side : {"left", "right"}) {
+    const fs::path image = fs::path(clip) / side / "000000.png";
+    const ColourImage seen = readColourImage(image);
+    ColourImage grey(seen.width_px, seen.height_px);
+    for (auto& pixel : grey.values) pixel = {128, 128, 128};
+    writePng(image, grey, /*overwrite=*/true);
+  }
+  Told told;
+  const Json record = written(reconstructSequence(options(), told.listener()).record);
+  EXPECT_EQ(record["frames_fused"], 3);
+  EXPECT_THAT(told.warnings,
+              Contains(HasSubstr("the model begins at frame 1, as 1 before it could not be used")));
 }
 
 TEST_F(RunOfAClip, SaysWhatWasNotFused) {

@@ -287,6 +287,13 @@ TEST_F(SimulatedFolder, NothingIsOverwrittenUnlessAskedTo) {
   EXPECT_FALSE(fs::exists(at("s/left/000001.png"))) << "a frame of the earlier simulation stayed";
 }
 
+TEST_F(SimulatedFolder, AnotherOneInItsPlaceHasNoMaskOfTheEarlier) {
+  simulateSequence(options({"frames=2", "instrument.radius_mm=2"}), {}, at("s"), false);
+  ASSERT_TRUE(fs::exists(at("s/mask/000001.png")));
+  simulateSequence(options({"frames=1"}), {}, at("s"), /*overwrite=*/true);
+  EXPECT_FALSE(fs::exists(at("s/mask"))) << "a folder without masks is one of too few";
+}
+
 TEST_F(SimulatedFolder, AFolderThatIsNoSimulationIsLeftAlone) {
   write("mine/left/000000.png", "a photograph");
   expectError<OptionError>([&] { simulateSequence(options(), {}, at("mine"), true); },

@@ -38,7 +38,7 @@ Raster<float> castDepth(const TriangleMesh& mesh_world, const PinholeCamera& lef
 
 Raster<float> trueDepth(const SequenceTruth& truth, int frame, const TriangleMesh& mesh_world) {
   const PinholeCamera& left = truth.rig.left;
-  const auto& pose = truth.trajectory[static_cast<std::size_t>(frame)];
+  const auto& pose = truth.poses.at(frame);
   const auto file = truth.depths.find(frame);
   if (file == truth.depths.end() || !truth.rectified)  // the file has the pixels of the raw image
     return castDepth(mesh_world, left, pose.world_from_left.inverse());

@@ -28,20 +28,19 @@ TrueTracks positionsOf(const std::vector<TrackSample>& samples) {
 }  // namespace
 
 CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth) {
-  const auto trueWorldFromLeft = [&](int frame) -> const Eigen::Isometry3d& {
-    return truth.trajectory[static_cast<std::size_t>(frame)].world_from_left;
-  };
-  const Eigen::Isometry3d start_from_world = run.frames[0] == 0
-                                                 ? Eigen::Isometry3d::Identity()
-                                                 : trueWorldFromLeft(run.frames[0]).inverse();
+  Eigen::Isometry3d start_from_world = Eigen::Isometry3d::Identity();
   CameraResult result;
   std::vector<Eigen::Isometry3d> true_poses, poses;
   std::vector<int> places;
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
-    if (!run.isPlaced(run.frames[k])) continue;
+    const auto truth_there = truth.poses.find(run.frames[k]);
+    if (!run.isPlaced(run.frames[k]) || truth_there == truth.poses.end()) continue;
+    const Eigen::Isometry3d& world_from_left = truth_there->second.world_from_left;
+    if (places.empty() && run.frames[k] != 0)
+      start_from_world = run.trajectory[k].world_from_left * world_from_left.inverse();
     places.push_back(static_cast<int>(k));
     result.frames.push_back(run.frames[k]);
-    true_poses.push_back(start_from_world * trueWorldFromLeft(run.frames[k]));
+    true_poses.push_back(start_from_world * world_from_left);
     poses.push_back(run.trajectory[k].world_from_left);
   }
   if (!poses.empty()) result.errors = trajectoryErrors(true_poses, poses, places);
@@ -86,7 +85,9 @@ RevisitResult judgeRevisits(const JudgedRun& run, const SequenceTruth& truth,
     surface_mm[model.frame] = model.errors.observed_mm.mean;
   std::vector<double> of_tracks, of_surface;
   for (const int frame : run.frames) {
-    poses.push_back(truth.trajectory[static_cast<std::size_t>(frame)].world_from_left);
+    const auto pose = truth.poses.find(frame);
+    if (pose == truth.poses.end()) continue;
+    poses.push_back(pose->second.world_from_left);
     of_tracks.push_back(statistics(tracks_mm[frame]).mean);
     const auto model = surface_mm.find(frame);
     of_surface.push_back(model == surface_mm.end() ? Statistics::kNone : model->second);
@@ -135,9 +136,13 @@ std::vector<std::string> sequenceWarnings(const JudgedRun& run, const SequenceTr
                            " fused frames show places in maps of their own (frames.csv "
                            "of the run, column map): their poses and tracked points count as not "
                            "reported"));
-  if (run.frames.size() < truth.trajectory.size())
+  if (run.frames.size() < static_cast<std::size_t>(truth.frame_count))
     warnings.push_back(say("the run has ", run.frames.size(), " of the sequence's ",
-                           truth.trajectory.size(), " frames; only these are evaluated"));
+                           truth.frame_count, " frames; only these are evaluated"));
+  const auto unknown = std::count_if(run.frames.begin(), run.frames.end(),
+                                     [&](int frame) { return truth.poses.count(frame) == 0; });
+  if (unknown > 0)
+    warnings.push_back(say(unknown, " frames of the run have no true pose: they are left out"));
   if (run.outcomes.empty())
     warnings.push_back(
         "frames.csv of the run has no status, so all frames count; reconstruct again");

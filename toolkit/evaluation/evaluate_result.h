@@ -44,7 +44,7 @@ struct EvaluationResult {
 };
 
 /// Over the fused frames. For a run that begins after frame 0, true
-/// poses are relative to its first frame, the origin of its world.
+/// poses are relative to its first fused frame, the origin of its world.
 CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth);
 
 /// Empty for a sequence without tracks.csv.

@@ -47,7 +47,8 @@ EvaluationResult againstSequence(const EvaluateOptions& options, const JudgedRun
   const std::vector<std::string> origin = checkOrigin(run, truth);
   EvaluationResult result;
   result.outcomes = run.outcomes;
-  for (const int frame : run.frames) result.times_s[frame] = truth.timeOf(frame);
+  for (const int frame : run.frames)
+    result.times_s[frame] = truth.poses.count(frame) == 0 ? run.timeOf(frame) : truth.timeOf(frame);
   result.camera = judgeCamera(run, truth);
   const std::vector<TrackSample> true_tracks = readTrueTracks(truth);
   result.tracks = judgeTracks(run, truth, true_tracks);

@@ -34,7 +34,7 @@ Moment readMoment(const JudgedRun& run, const SequenceTruth& truth, int frame,
   moment.mesh = readMesh(truth.meshes.at(frame));
   moment.surface = std::make_unique<TriangleTree>(moment.mesh);
   moment.depth_mm = trueDepth(truth, frame, moment.mesh);
-  moment.world_from_left = truth.trajectory[static_cast<std::size_t>(frame)].world_from_left;
+  moment.world_from_left = truth.poses.at(frame).world_from_left;
   return moment;
 }
 
@@ -97,7 +97,7 @@ double SurfaceSeries::meanOf(const std::function<double(const ModelErrors&)>& va
 std::vector<int> framesToJudge(const JudgedRun& run, const SequenceTruth& truth) {
   std::vector<int> frames;
   for (const auto& [frame, file] : run.countedModels())
-    if (truth.meshes.count(frame) != 0) frames.push_back(frame);
+    if (truth.meshes.count(frame) != 0 && truth.poses.count(frame) != 0) frames.push_back(frame);
   return frames;
 }
 

@@ -106,7 +106,7 @@ std::string momentText(int frame, double time_s) {
 }
 
 RunMoment JudgedPair::moment(int frame, bool surface) const {
-  const TimedPose& pose = truth.trajectory[static_cast<std::size_t>(frame)];
+  const TimedPose& pose = truth.poses.at(frame);
   RunMoment moment;
   moment.frame = frame;
   moment.time_s = truth.timeOf(frame);

@@ -10,6 +10,7 @@
 #include "io/files/file_bytes.h"
 #include "io/files/folder.h"
 #include "io/geometry/trajectory_file.h"
+#include "io/sequences/timestamps_file.h"
 #include "io/text/message.h"
 #include "stereo/rectification/rectifier.h"
 #include "toolkit/run/frame_clock.h"
@@ -44,6 +45,32 @@ FrameRows frameRows(const fs::path& file, std::size_t poses) {
                          " frames, but trajectory.txt has ", poses,
                          " poses; a run that was cut short? Reconstruct again"));
   return rows;
+}
+
+/// The frame at a time; -1 if there is none.
+int frameAt(double time_s, const std::vector<double>& times_s) {
+  constexpr double kSameTimeS = 1e-3;
+  const auto next = std::lower_bound(times_s.begin(), times_s.end(), time_s - kSameTimeS);
+  return next != times_s.end() && *next <= time_s + kSameTimeS
+             ? static_cast<int>(next - times_s.begin())
+             : -1;
+}
+
+/// `times_s`: of the frames; empty if unknown.
+std::map<int, TimedPose> posesByFrame(const fs::path& file, const std::vector<double>& times_s) {
+  const Trajectory trajectory = readTrajectory(file);
+  const bool by_line = times_s.empty() || times_s.size() == trajectory.size();
+  std::map<int, TimedPose> poses;
+  for (const TimedPose& pose : trajectory) {
+    const int frame = by_line ? static_cast<int>(poses.size()) : frameAt(pose.time_s, times_s);
+    if (frame < 0)
+      throw InputError(say(shown(file), ": has a pose at ", pose.time_s, " s, but no frame in ",
+                           "timestamps.txt has this time, and there are ", trajectory.size(),
+                           " poses of ", times_s.size(),
+                           " frames; give each pose the time of its frame"));
+    poses.insert({frame, pose});
+  }
+  return poses;
 }
 
 /// The model of the first frame is the depth of that frame.
@@ -97,10 +124,14 @@ int JudgedRun::lastCounted() const {
 }
 
 double SequenceTruth::timeOf(int frame) const {
-  std::vector<int> frames(trajectory.size());
-  std::iota(frames.begin(), frames.end(), 0);
-  return hasClock(frames, trajectory) ? trajectory[static_cast<std::size_t>(frame)].time_s
-                                      : std::nan("");
+  std::vector<int> frames;
+  Trajectory trajectory;
+  for (const auto& [number, pose] : poses) {
+    frames.push_back(number);
+    trajectory.push_back(pose);
+  }
+  const auto pose = poses.find(frame);
+  return pose != poses.end() && hasClock(frames, trajectory) ? pose->second.time_s : std::nan("");
 }
 
 int holdOutEvery(const fs::path& run_folder) {
@@ -148,7 +179,11 @@ SequenceTruth openSequenceTruth(const fs::path& sequence) {
                      "ground truth, or a mesh");
   SequenceTruth truth;
   truth.folder = sequence;
-  truth.trajectory = readTrajectory(truth_folder / "trajectory.txt");
+  std::vector<double> times_s;
+  if (isThere(sequence / "timestamps.txt")) times_s = readTimestamps(sequence / "timestamps.txt");
+  truth.poses = posesByFrame(truth_folder / "trajectory.txt", times_s);
+  truth.frame_count =
+      times_s.empty() ? static_cast<int>(truth.poses.size()) : static_cast<int>(times_s.size());
   truth.meshes = numberedFiles(truth_folder / "mesh", ".ply");
   truth.depths = numberedFiles(truth_folder / "depth", ".png");
   truth.tracks = fileOrNone(truth_folder / "tracks.csv");
@@ -160,7 +195,7 @@ SequenceTruth openSequenceTruth(const fs::path& sequence) {
 }
 
 void requireSameSequence(const JudgedRun& run, const SequenceTruth& truth) {
-  const int count = static_cast<int>(truth.trajectory.size());
+  const int count = truth.frame_count;
   const auto fail = [&](const fs::path& file, int frame) {
     throw InputError(say(shown(file), ": is of frame ", frame, ", but ", shown(truth.folder),
                          " has true poses of frames 0 to ", count - 1,
@@ -178,10 +213,10 @@ void requireSameSequence(const JudgedRun& run, const SequenceTruth& truth) {
 std::map<int, Eigen::Isometry3d> truthFromRun(const JudgedRun& run, const SequenceTruth& truth) {
   std::map<int, Eigen::Isometry3d> moves;
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
-    const auto frame = static_cast<std::size_t>(run.frames[k]);
-    if (frame < truth.trajectory.size())
+    const auto pose = truth.poses.find(run.frames[k]);
+    if (pose != truth.poses.end())
       moves[run.frames[k]] =
-          truth.trajectory[frame].world_from_left * run.trajectory[k].world_from_left.inverse();
+          pose->second.world_from_left * run.trajectory[k].world_from_left.inverse();
   }
   return moves;
 }

@@ -64,10 +64,11 @@ bool hasTruth(const std::filesystem::path& sequence);
 
 /// Ground truth of a sequence folder.
 struct SequenceTruth {
-  std::filesystem::path folder;  // sequence folder
-  Trajectory trajectory;         // world_from_left; pose i belongs to frame i
-  FrameFiles meshes, depths;     // groundtruth/mesh, groundtruth/depth
-  std::filesystem::path tracks;  // groundtruth/tracks.csv; empty if missing
+  std::filesystem::path folder;    // sequence folder
+  std::map<int, TimedPose> poses;  // of those frames that have one
+  int frame_count = 0;             // of the sequence
+  FrameFiles meshes, depths;       // groundtruth/mesh, groundtruth/depth
+  std::filesystem::path tracks;    // groundtruth/tracks.csv; empty if missing
   RectifiedRig rig;
   double depth_unit_mm = 0.01;
   bool rectified = true;  // whether images and pixel coordinates are rectified
@@ -76,7 +77,9 @@ struct SequenceTruth {
   double timeOf(int frame) const;
 };
 
-/// Throws InputError: no such folder, no groundtruth in it, no true trajectory, no calibration.
+/// A pose belongs to the frame of its time; to that of its line where the sequence has no times, or
+/// as many as the trajectory has poses. Throws InputError: no such folder, no groundtruth in it, no
+/// true trajectory, no calibration, or a pose at a time of no frame.
 SequenceTruth openSequenceTruth(const std::filesystem::path& sequence);
 
 /// Throws InputError if the run cannot belong to this

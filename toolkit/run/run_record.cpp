@@ -94,6 +94,10 @@ void RunRecord::add(const FrameRecord& record) {
     frames_of_map_.erase(record.join->from);
   }
   if (!record.fused()) return;
+  if (first_fused_ < 0) {
+    first_fused_ = record.frame;
+    before_first_ = frames_ - 1;
+  }
   ++frames_of_map_[record.map];
   points_ = record.points;
   if (record.warp.nodes > 0) nodes_ = record.warp.nodes;
@@ -137,6 +141,11 @@ std::vector<std::string> RunRecord::conclusions() const {
         std::to_string(assumed_) + " of " + std::to_string(frames_) +
         " frames were fused at the last pose, as their matches determined none "
         "(frames.csv, no pose_sigma_mm): where the scope moved, the tissue has its motion");
+  if (before_first_ > 0)
+    all.push_back("the model begins at frame " + std::to_string(first_fused_) + ", as " +
+                  std::to_string(before_first_) +
+                  " before it could not be used: the world is the left camera there, and pixels "
+                  "of --track are taken there, not in the first image");
   if (framesElsewhere() > 0)
     all.push_back(std::to_string(framesElsewhere()) +
                   " frames were fused with models of other places, begun where the first model was "

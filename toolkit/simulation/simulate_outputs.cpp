@@ -47,6 +47,7 @@ void removeEarlierFrames(const fs::path& folder) {
     for (const auto& entry : fs::directory_iterator(folder / name))
       if (isNumberedFrame(entry.path())) earlier.push_back(entry.path());
     for (const fs::path& file : earlier) fs::remove(file);
+    if (fs::is_empty(folder / name)) fs::remove(folder / name);
   }
   for (const char* name :
        {"groundtruth/trajectory.txt", "groundtruth/tracks.csv", "track_points.csv",

@@ -56,14 +56,13 @@ class TrueReference : public MomentErrors {
 
   std::shared_ptr<const TriangleMesh> reference(const ViewMoment& moment) override {
     const auto file = truth_.meshes.find(moment.frame);
-    const auto frame = static_cast<std::size_t>(moment.frame);
-    if (file == truth_.meshes.end() || frame >= truth_.trajectory.size() || !moment.world_from_left)
+    const auto pose = truth_.poses.find(moment.frame);
+    if (file == truth_.meshes.end() || pose == truth_.poses.end() || !moment.world_from_left)
       return nullptr;
     if (moment.frame == frame_) return mesh_;
     TriangleMesh mesh = readMesh(file->second);
-    mesh.vertices_mm =
-        movePoints(*moment.world_from_left * truth_.trajectory[frame].world_from_left.inverse(),
-                   mesh.vertices_mm);
+    mesh.vertices_mm = movePoints(*moment.world_from_left * pose->second.world_from_left.inverse(),
+                                  mesh.vertices_mm);
     frame_ = moment.frame;
     mesh_ = std::make_shared<const TriangleMesh>(std::move(mesh));
     return mesh_;
