@@ -133,6 +133,15 @@ TEST_F(Evaluation, TruePosesBelongToTheFramesOfTheirTimes) {
   EXPECT_THAT(some["warnings"].dump(), HasSubstr("3 frames of the run have no true pose"));
 }
 
+TEST_F(Evaluation, AMissingFirstTruePoseHidesNoError) {
+  write("truth/timestamps.txt", "0\n0.04\n0.08\n0.12\n0.16\n0.2\n");
+  const std::string truth = "truth/groundtruth/trajectory.txt";
+  write(truth, chosenLines(textOf(at(truth)), {0, 2, 4}));  // its title, frames 1, 3
+  const Json result = evaluated();
+  EXPECT_EQ(result["camera"]["poses"], 2);
+  EXPECT_NEAR(result["camera"]["pose"]["mean_mm"].get<double>(), 0.2, kFloats);  // 0.1, 0.3
+}
+
 TEST_F(Evaluation, ATruePoseBetweenTheFramesIsRefused) {
   write("truth/timestamps.txt", "0\n0.04\n0.08\n0.12\n0.16\n0.2\n");
   write("truth/groundtruth/trajectory.txt", "0 0 0 0 0 0 0 1\n0.05 0 0 0 0 0 0 1\n");

@@ -28,6 +28,9 @@ TrueTracks positionsOf(const std::vector<TrackSample>& samples) {
 }  // namespace
 
 CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth) {
+  const auto first = std::find_if(run.frames.begin(), run.frames.end(),
+                                  [&](int frame) { return run.isPlaced(frame); });
+  const bool begins_later = first != run.frames.end() && *first != 0;
   Eigen::Isometry3d start_from_world = Eigen::Isometry3d::Identity();
   CameraResult result;
   std::vector<Eigen::Isometry3d> true_poses, poses;
@@ -36,7 +39,7 @@ CameraResult judgeCamera(const JudgedRun& run, const SequenceTruth& truth) {
     const auto truth_there = truth.poses.find(run.frames[k]);
     if (!run.isPlaced(run.frames[k]) || truth_there == truth.poses.end()) continue;
     const Eigen::Isometry3d& world_from_left = truth_there->second.world_from_left;
-    if (places.empty() && run.frames[k] != 0)
+    if (places.empty() && begins_later)
       start_from_world = run.trajectory[k].world_from_left * world_from_left.inverse();
     places.push_back(static_cast<int>(k));
     result.frames.push_back(run.frames[k]);

@@ -73,6 +73,16 @@ std::map<int, TimedPose> posesByFrame(const fs::path& file, const std::vector<do
   return poses;
 }
 
+bool haveClock(const std::map<int, TimedPose>& poses) {
+  std::vector<int> frames;
+  std::vector<double> times_s;
+  for (const auto& [frame, pose] : poses) {
+    frames.push_back(frame);
+    times_s.push_back(pose.time_s);
+  }
+  return hasClock(frames, times_s);
+}
+
 /// The model of the first frame is the depth of that frame.
 bool measuresBackProjection(const FrameRows& rows, std::size_t k) {
   return rows.statuses.empty() || (outcomeOf(rows.statuses[k]) == FusionOutcome::kFused &&
@@ -124,14 +134,8 @@ int JudgedRun::lastCounted() const {
 }
 
 double SequenceTruth::timeOf(int frame) const {
-  std::vector<int> frames;
-  Trajectory trajectory;
-  for (const auto& [number, pose] : poses) {
-    frames.push_back(number);
-    trajectory.push_back(pose);
-  }
   const auto pose = poses.find(frame);
-  return pose != poses.end() && hasClock(frames, trajectory) ? pose->second.time_s : std::nan("");
+  return has_clock && pose != poses.end() ? pose->second.time_s : std::nan("");
 }
 
 int holdOutEvery(const fs::path& run_folder) {
@@ -182,6 +186,7 @@ SequenceTruth openSequenceTruth(const fs::path& sequence) {
   std::vector<double> times_s;
   if (isThere(sequence / "timestamps.txt")) times_s = readTimestamps(sequence / "timestamps.txt");
   truth.poses = posesByFrame(truth_folder / "trajectory.txt", times_s);
+  truth.has_clock = haveClock(truth.poses);
   truth.frame_count =
       times_s.empty() ? static_cast<int>(truth.poses.size()) : static_cast<int>(times_s.size());
   truth.meshes = numberedFiles(truth_folder / "mesh", ".ply");
@@ -198,8 +203,7 @@ void requireSameSequence(const JudgedRun& run, const SequenceTruth& truth) {
   const int count = truth.frame_count;
   const auto fail = [&](const fs::path& file, int frame) {
     throw InputError(say(shown(file), ": is of frame ", frame, ", but ", shown(truth.folder),
-                         " has true poses of frames 0 to ", count - 1,
-                         "; a run of another sequence?"));
+                         " has the frames 0 to ", count - 1, "; a run of another sequence?"));
   };
   if (run.frames.back() >= count) fail(run.folder / "trajectory.txt", run.frames.back());
   for (const auto& [frame, file] : run.models)

@@ -67,6 +67,7 @@ struct SequenceTruth {
   std::filesystem::path folder;    // sequence folder
   std::map<int, TimedPose> poses;  // of those frames that have one
   int frame_count = 0;             // of the sequence
+  bool has_clock = false;          // the poses have times
   FrameFiles meshes, depths;       // groundtruth/mesh, groundtruth/depth
   std::filesystem::path tracks;    // groundtruth/tracks.csv; empty if missing
   RectifiedRig rig;

@@ -1,7 +1,9 @@
 // toolkit/run/run_record.cpp: inputs with hashes, settings, frames and times.
 #include "toolkit/run/run_record.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "core/parallel.h"
@@ -94,10 +96,6 @@ void RunRecord::add(const FrameRecord& record) {
     frames_of_map_.erase(record.join->from);
   }
   if (!record.fused()) return;
-  if (first_fused_ < 0) {
-    first_fused_ = record.frame;
-    before_first_ = frames_ - 1;
-  }
   ++frames_of_map_[record.map];
   points_ = record.points;
   if (record.warp.nodes > 0) nodes_ = record.warp.nodes;
@@ -141,9 +139,13 @@ std::vector<std::string> RunRecord::conclusions() const {
         std::to_string(assumed_) + " of " + std::to_string(frames_) +
         " frames were fused at the last pose, as their matches determined none "
         "(frames.csv, no pose_sigma_mm): where the scope moved, the tissue has its motion");
-  if (before_first_ > 0)
-    all.push_back("the model begins at frame " + std::to_string(first_fused_) + ", as " +
-                  std::to_string(before_first_) +
+  const auto& each = outcomes_.each();
+  const auto first = std::find_if(each.begin(), each.end(), [](const auto& frame) {
+    return frame.second == FusionOutcome::kFused;
+  });
+  if (first != each.end() && first != each.begin())
+    all.push_back("the model begins at frame " + std::to_string(first->first) + ", as " +
+                  std::to_string(std::distance(each.begin(), first)) +
                   " before it could not be used: the world is the left camera there, and pixels "
                   "of --track are taken there, not in the first image");
   if (framesElsewhere() > 0)

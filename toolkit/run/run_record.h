@@ -50,7 +50,6 @@ class RunRecord {
   std::map<std::string, double> elapsed_ms_;  // per stage, over all frames
   std::vector<double> backprojection_mm_, prediction_mm_, frame_ms_, matches_;
   int frames_ = 0, points_ = 0, nodes_ = 0;
-  int first_fused_ = -1, before_first_ = 0;  // the first fused frame, and how many were before it
   int located_ = 0, scope_static_ = 0, doubtful_ = 0, disagreeing_ = 0, imprecise_ = 0,
       imprecise_tracks_ = 0, assumed_ = 0;
 };
