@@ -1,5 +1,6 @@
 #include "stereo/matching/sgbm_matcher.h"
 
+#include <algorithm>
 #include <opencv2/calib3d.hpp>
 
 #include "core/mask_morphology.h"
@@ -14,6 +15,14 @@ namespace {
 
 constexpr float kStandardErrorPx = 0.3f;  // measured on textured tissue: docs/stereo.md §7
 
+/// The image with `columns` copies of its first column on the left: OpenCV matches only pixels for
+/// which the whole range of disparities lies inside of the right image.
+cv::Mat widenedLeft(const GrayImage& image, int columns) {
+  cv::Mat wide;
+  cv::copyMakeBorder(opencvView(image), wide, 0, 0, columns, 0, cv::BORDER_REPLICATE);
+  return wide;
+}
+
 }  // namespace
 
 DisparityMap SgbmMatcher::match(const GrayImage& left_image, const GrayImage& right_image,
@@ -26,8 +35,9 @@ DisparityMap SgbmMatcher::match(const GrayImage& left_image, const GrayImage& ri
   const int block = options_.sgbm_block_px, area = block * block;
   const auto sgbm = cv::StereoSGBM::create(options_.disparity_min_px, count, block, 8 * area,
                                            32 * area, 1, 63, 10, 100, 2);
+  const int columns = std::max(0, options_.disparity_min_px + count);
   cv::Mat found;
-  sgbm->compute(opencvView(left), opencvView(right), found);  // 1/16 px
+  sgbm->compute(widenedLeft(left, columns), widenedLeft(right, columns), found);  // 1/16 px
   clock.lap("match");
   DisparityMap map{Raster<float>(left.width_px, left.height_px, kNotMeasured<float>),
                    Raster<float>(left.width_px, left.height_px, kNotMeasured<float>)};
@@ -39,8 +49,8 @@ DisparityMap SgbmMatcher::match(const GrayImage& left_image, const GrayImage& ri
   const short unmatched = static_cast<short>((options_.disparity_min_px - 1) * 16);
   for (int v = 0; v < left.height_px; ++v)
     for (int u = 0; u < left.width_px; ++u) {
-      const short d = found.at<short>(v, u);
-      if (d <= unmatched) continue;
+      const short d = found.at<short>(v, columns + u);
+      if (d <= unmatched || d > 16 * u) continue;
       if (is_blocked(left_blocked, u, v) || is_blocked(right_blocked, u - (d + 8) / 16, v))
         continue;
       map.disparity_px.at(u, v) = static_cast<float>(d) / 16;
