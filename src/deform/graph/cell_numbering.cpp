@@ -4,13 +4,13 @@ namespace softscope {
 namespace {
 
 constexpr std::size_t kFewestSlots = 64;
+constexpr int kKeyBits = 21;  // of a key, per coordinate
 
 std::uint64_t keyOfBlock(const Cube& cube) {
   const auto along = [](int at) {
     return static_cast<std::uint64_t>(at >> CellNumbering::kBlockBits);
   };
-  constexpr int kBits = 21;
-  return along(cube.z) << (2 * kBits) | along(cube.y) << kBits | along(cube.x);
+  return along(cube.z) << (2 * kKeyBits) | along(cube.y) << kKeyBits | along(cube.x);
 }
 
 CellNumbering::Block emptyBlock() {
@@ -36,6 +36,14 @@ const CellNumbering::Block& CellNumbering::blockOf(const Cube& cube) const {
   static const Block kEmpty = emptyBlock();
   const int block = slots_[slotOf(keyOfBlock(cube))];
   return block < 0 ? kEmpty : blocks_[static_cast<std::size_t>(block)];
+}
+
+Cube CellNumbering::firstCubeOf(int block) const {
+  const auto along = [&](int shift) {
+    const std::uint64_t at = keys_[static_cast<std::size_t>(block)] >> shift;
+    return static_cast<int>(at & ((1u << kKeyBits) - 1)) << kBlockBits;
+  };
+  return {along(0), along(kKeyBits), along(2 * kKeyBits)};
 }
 
 int CellNumbering::find(const Cube& cube) const { return blockOf(cube)[insideBlock(cube)]; }
@@ -68,18 +76,24 @@ void CellNumbering::grow() {
     slots_[slotOf(keys_[block])] = static_cast<int>(block);
 }
 
-void NeighbourFinder::moveTo(const Cube& cube) {
-  const auto along = [](int at) { return (at >> CellNumbering::kBlockBits) - 1; };
-  const Cube first{along(cube.x), along(cube.y), along(cube.z)};
-  if (first == first_) return;
-  first_ = first;
-  std::size_t at = 0;
-  for (int z = 0; z < 3; ++z)
-    for (int y = 0; y < 3; ++y)
-      for (int x = 0; x < 3; ++x)
-        around_[at++] = &table_.blockOf({(first.x + x) * CellNumbering::kBlockSide,
-                                         (first.y + y) * CellNumbering::kBlockSide,
-                                         (first.z + z) * CellNumbering::kBlockSide});
+BlockWithRim::BlockWithRim(const CellNumbering& table, int block) {
+  constexpr int kBlockSide = CellNumbering::kBlockSide;
+  const Cube first = table.firstCubeOf(block);
+  struct Span {
+    int block, begin, end;  // cells from -1, of the block before, to kBlockSide, of the one behind
+  };
+  constexpr Span kSpans[] = {{-1, -1, 0}, {0, 0, kBlockSide}, {1, kBlockSide, kBlockSide + 1}};
+  for (const Span& along_z : kSpans)
+    for (const Span& along_y : kSpans)
+      for (const Span& along_x : kSpans) {
+        const CellNumbering::Block& cells = table.blockOf({first.x + along_x.block * kBlockSide,
+                                                           first.y + along_y.block * kBlockSide,
+                                                           first.z + along_z.block * kBlockSide});
+        for (int z = along_z.begin; z < along_z.end; ++z)
+          for (int y = along_y.begin; y < along_y.end; ++y)
+            for (int x = along_x.begin; x < along_x.end; ++x)
+              cells_[at(x + 1, y + 1, z + 1)] = cells[CellNumbering::insideBlock({x, y, z})];
+      }
 }
 
 }  // namespace softscope

@@ -40,6 +40,8 @@ class CellNumbering {
   int find(const Cube& cube) const;  // -1 for a cube without a number
   int findOrAdd(const Cube& cube);
   int size() const { return static_cast<int>(cubes_.size()); }
+  int blocks() const { return static_cast<int>(blocks_.size()); }
+  Cube firstCubeOf(int block) const;
   const Cube& cube(int cell) const { return cubes_[static_cast<std::size_t>(cell)]; }
 
   static constexpr int kBlockBits = 3, kBlockSide = 1 << kBlockBits;
@@ -87,36 +89,36 @@ class CellFinder {
   int last_cell_ = -1;
 };
 
-/// Looks up the cubes around others in sequence: the blocks around the last one are cached.
-class NeighbourFinder {
+/// Numbers of the cells of a block, and of those around it.
+class BlockWithRim {
  public:
-  explicit NeighbourFinder(const CellNumbering& table) : table_(table) {}
-  /// Numbers of the cubes that touch this one, also at a corner, without its own.
+  BlockWithRim(const CellNumbering& table, int block);
+
+  /// visit(cell, other) for each cell of the block and each that touches it, also at a corner.
   template <class Visit>
-  void visit(const Cube& centre, const Visit& visit) {
-    moveTo(centre);
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-          const Cube cube{centre.x + dx, centre.y + dy, centre.z + dz};
-          if (cube == centre) continue;
-          const int other = (*around_[blockAround(cube)])[CellNumbering::insideBlock(cube)];
-          if (other >= 0) visit(other);
-        }
+  void visitTouching(const Visit& visit) const {
+    for (int z = 1; z <= CellNumbering::kBlockSide; ++z)
+      for (int y = 1; y <= CellNumbering::kBlockSide; ++y)
+        for (int x = 1; x <= CellNumbering::kBlockSide; ++x)
+          if (const int cell = cells_[at(x, y, z)]; cell >= 0)
+            visitAround(at(x, y, z), [&](int other) { visit(cell, other); });
   }
 
  private:
-  void moveTo(const Cube& cube);
-  /// Of 3 x 3 x 3 blocks.
-  std::size_t blockAround(const Cube& cube) const {
-    const auto along = [](int at, int first) { return (at >> CellNumbering::kBlockBits) - first; };
-    return static_cast<std::size_t>((along(cube.z, first_.z) * 3 + along(cube.y, first_.y)) * 3 +
-                                    along(cube.x, first_.x));
+  static constexpr int kSide = CellNumbering::kBlockSide + 2;
+  static constexpr int at(int x, int y, int z) { return (z * kSide + y) * kSide + x; }
+
+  template <class Visit>
+  void visitAround(int centre, const Visit& visit) const {
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const int away = at(dx, dy, dz), other = cells_[centre + away];
+          if (away != 0 && other >= 0) visit(other);
+        }
   }
 
-  const CellNumbering& table_;
-  Cube first_{-2, -2, -2};  // the first of the blocks around, in blocks
-  std::array<const CellNumbering::Block*, 27> around_{};
+  std::array<int, kSide * kSide * kSide> cells_;
 };
 
 }  // namespace softscope

@@ -176,7 +176,11 @@ class Growth {
 
   GraphGrowth run() {
     const std::vector<NodeStencil> stencils_before = graph_.stencils;
-    spreadNodesWithin(1, centresOfUnbound());
+    const std::vector<int> unbound = cellsOfUnbound();
+    reach_.list(unbound);
+    Positions centres_mm;
+    for (const int cell : unbound) centres_mm.push_back(cells_.centre(cell));
+    spreadNodesWithin(1, centres_mm);
     addNodes();
     bindPoints();
     result_.structure_changed =
@@ -190,16 +194,15 @@ class Growth {
   }
 
  private:
-  /// Of the cells with unbound points.
-  Positions centresOfUnbound() const {
-    std::vector<char> is_listed(static_cast<std::size_t>(cells_.size()), 0);
-    Positions centres;
+  std::vector<int> cellsOfUnbound() const {
+    std::vector<char> is_found(static_cast<std::size_t>(cells_.size()), 0);
+    std::vector<int> found;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const int cell = cells_.cellOf(static_cast<int>(i));
-      if (cell < 0 || bindings_[points_[i]].bound() || std::exchange(is_listed[cell], 1)) continue;
-      centres.push_back(cells_.centre(cell));
+      if (cell < 0 || bindings_[points_[i]].bound() || std::exchange(is_found[cell], 1)) continue;
+      found.push_back(cell);
     }
-    return centres;
+    return found;
   }
 
   /// Walks are most of the work: only nodes that can reach one of the places walk.

@@ -1,5 +1,6 @@
 #include "deform/graph/node_reach.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
 
@@ -9,35 +10,56 @@ namespace softscope {
 namespace {
 
 constexpr int kWalksPerTask = 8;
+constexpr float kSurely = 1.001f;  // distances are rounded
 
 }  // namespace
 
 NodeReach::NodeReach(const SurfaceCells& cells, const GraphOptions& options)
     : cells_(cells),
       options_(options),
-      near_(static_cast<std::size_t>(cells.size())),
+      is_listed_(static_cast<std::size_t>(cells.size()), false),
+      near_(is_listed_.size()),
       visits_(cells.size()) {}
+
+void NodeReach::list(const std::vector<int>& cells) {
+  std::vector<int> added;
+  for (const int cell : cells)
+    if (!std::exchange(is_listed_[cell], true)) added.push_back(cell);
+  if (added.empty() || walks_.empty()) return;
+  std::vector<char> is_added(is_listed_.size(), false);
+  Eigen::AlignedBox3f box_mm;
+  for (const int cell : added) {
+    is_added[cell] = true;
+    box_mm.extend(cells_.centre(cell));
+  }
+  const auto reach_mm = static_cast<float>(reachMm(options_));
+  for (const Walk& walk : walks_)
+    if (box_mm.exteriorDistance(walk.start.position_mm) <= kSurely * reach_mm)
+      enterWalk(walk, is_added);
+}
 
 /// Walks are independent.
 void NodeReach::spreadAll(const std::vector<Start>& starts) {
-  std::vector<std::vector<Reached>> walks(starts.size());
+  const std::size_t walked = walks_.size();
+  walks_.resize(walked + starts.size());
   parallelRanges(static_cast<int>(starts.size()), kWalksPerTask, [&](int begin, int end) {
     Visits visits(cells_.size());
-    for (int i = begin; i < end; ++i) walks[i] = walk(starts[i].position_mm, &visits);
+    for (int i = begin; i < end; ++i)
+      walks_[walked + i] = {starts[i], walk(starts[i].position_mm, &visits)};
   });
-  parallelRanges(cells_.size(), cellsPerThread(cells_.size()), [&](int begin, int end) {
-    for (std::size_t i = 0; i < starts.size(); ++i)
-      for (const Reached& reached : walks[i])
-        if (reached.cell >= begin && reached.cell < end)
-          enter(starts[i].node, reached.distance_mm, &near_[reached.cell]);
-  });
+  for (std::size_t i = walked; i < walks_.size(); ++i) enterWalk(walks_[i], is_listed_);
 }
 
 std::vector<int> NodeReach::spread(int node, const Eigen::Vector3f& position_mm) {
+  Walk walk{{node, position_mm}, this->walk(position_mm, &visits_)};
+  std::vector<int> cells;
+  for (const Reached& reached : walk.reached) cells.push_back(reached.cell);
+  list(cells);
   std::vector<int> entered;
-  for (const Reached& reached : walk(position_mm, &visits_))
+  for (const Reached& reached : walk.reached)
     if (enter(node, reached.distance_mm, &near_[reached.cell]) <= kNodesPerPoint)
       entered.push_back(reached.cell);
+  walks_.push_back(std::move(walk));
   return entered;
 }
 
@@ -75,6 +97,11 @@ std::vector<NodeReach::Reached> NodeReach::walk(const Eigen::Vector3f& position_
     in_ring = in_next;
   }
   return reached;
+}
+
+void NodeReach::enterWalk(const Walk& walk, const std::vector<char>& is_entered) {
+  for (const Reached& reached : walk.reached)
+    if (is_entered[reached.cell]) enter(walk.start.node, reached.distance_mm, &near_[reached.cell]);
 }
 
 /// Insertion into a short sorted list; of equal distances the lower node is first. Returns where.

@@ -11,7 +11,7 @@
 
 namespace softscope {
 
-/// For each cell, the closest nodes reachable along the surface.
+/// For each listed cell, the closest nodes reachable along the surface.
 class NodeReach {
  public:
   static constexpr int kNearest = 10;
@@ -34,20 +34,27 @@ class NodeReach {
     Eigen::Vector3f position_mm;
   };
 
-  /// spread() from each, in parallel.
+  /// Lists these cells too: with the nodes that walked so far, and those that will.
+  void list(const std::vector<int>& cells);
+  /// Walks from each node over touching cells, and adds it to the lists of close nodes.
   void spreadAll(const std::vector<Start>& starts);
-  /// Walks from the node over touching cells and adds it to the lists of close nodes.
-  /// Returns the cells where it is one of those that determine the skinning weights.
+  /// The same for one node; the cells that it reaches are listed. Returns those
+  /// where it is one of the nodes that determine the skinning weights.
   std::vector<int> spread(int node, const Eigen::Vector3f& position_mm);
 
+  /// Of a listed cell.
   const Near& near(int cell) const { return near_[cell]; }
-  /// True if a node is within the node spacing of the centre of the cell.
+  /// True if a node is within the node spacing of the centre of the listed cell.
   bool covered(int cell) const;
 
  private:
   struct Reached {
     int cell = 0;
     float distance_mm = 0;
+  };
+  struct Walk {
+    Start start;
+    std::vector<Reached> reached;
   };
   /// Cells visited by the last walk, so that a walk needs no clearing.
   struct Visits {
@@ -60,10 +67,14 @@ class NodeReach {
   };
 
   std::vector<Reached> walk(const Eigen::Vector3f& position_mm, Visits* visits) const;
+  /// Into the lists of those cells of the walk.
+  void enterWalk(const Walk& walk, const std::vector<char>& is_entered);
   int enter(int node, float distance_mm, Near* near) const;
 
   const SurfaceCells& cells_;
   GraphOptions options_;
+  std::vector<Walk> walks_;
+  std::vector<char> is_listed_;
   std::vector<Near> near_;
   Visits visits_;
 };

@@ -9,13 +9,6 @@
 
 namespace softscope {
 
-/// A grain for loops over cells.
-inline constexpr int kCellsPerTask = 512;
-
-/// Grain of loops over cells in which each task visits all
-/// data and handles its own part: at most one task per thread.
-int cellsPerThread(int cells);
-
 /// Cubes that contain points; cubes that touch (also at a corner) are neighbours.
 class SurfaceCells {
  public:
@@ -39,10 +32,15 @@ class SurfaceCells {
   const Neighbours& neighbours(int cell) const { return neighbours_[cell]; }
 
  private:
-  void numberCubes(const std::vector<Eigen::Vector3f>& positions_mm,
-                   const std::vector<int>& points);
-  void findCentres(const std::vector<Eigen::Vector3f>& positions_mm,
-                   const std::vector<int>& points);
+  /// By their cell, in each as given.
+  struct SortedPoints {
+    std::vector<int> points;
+    std::vector<int> first;  // into points; one per cell, and the end
+  };
+
+  SortedPoints sortByCell(const std::vector<Eigen::Vector3f>& positions_mm,
+                          const std::vector<int>& points);
+  void findCentres(const std::vector<Eigen::Vector3f>& positions_mm, const SortedPoints& sorted);
   void findNeighbours();
 
   double cell_mm_;
