@@ -19,5 +19,15 @@ TEST(RepeatedWarnings, TellsTheFirstOfAKindAndCountsTheOthers) {
   EXPECT_EQ(told[2], "lost: 4 more frames, 5 to 8; a table has each");
 }
 
+TEST(RepeatedWarnings, TellsTheLastReasonWhereNoFileHasThem) {
+  std::vector<std::string> told;
+  RepeatedWarnings warnings([&](const std::string& text) { told.push_back(text); });
+  for (int frame = 0; frame < 3; ++frame)
+    warnings.add("lost", frame, "lost: " + std::to_string(frame) + " pairs");
+  warnings.conclude("");
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_EQ(told[1], "lost: 2 more frames, 1 to 2; the last: lost: 2 pairs");
+}
+
 }  // namespace
 }  // namespace softscope

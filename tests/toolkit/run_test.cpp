@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "io/files/file_lock.h"
-#include "io/images/image_reader.h"
 #include "io/images/image_writer.h"
 #include "support/in_folder.h"
 #include "tests/io/temporary_folder.h"
@@ -37,6 +36,11 @@ class RunOfAClip : public InFolder {
   }
   ReconstructOptions options(const std::string& run = "run") const {
     return reconstruction(at("clip"), at(run));
+  }
+  /// Without depth.
+  void paintBlack(const std::string& name) const {
+    for (const char* side : {"left", "right"})
+      writePng(fs::path(at("clip")) / side / name, ColourImage(160, 120), /*overwrite=*/true);
   }
   Json judged(const std::string& run = "run") const {
     EvaluateOptions options;
@@ -105,19 +109,30 @@ TEST_F(RunOfAClip, SaysWhichFramesHaveNoPoseOfTheirOwn) {
 }
 
 TEST_F(RunOfAClip, SaysThatTheFirstImageCouldNotBeUsed) {
-  const std::string clip = makeClip(4);
-  for (const char* side : {"left", "right"}) {
-    const fs::path image = fs::path(clip) / side / "000000.png";
-    const ColourImage seen = readColourImage(image);
-    ColourImage grey(seen.width_px, seen.height_px);
-    for (auto& pixel : grey.values) pixel = {128, 128, 128};
-    writePng(image, grey, /*overwrite=*/true);
-  }
+  makeClip(4);
+  paintBlack("000000.png");
   Told told;
   const Json record = written(reconstructSequence(options(), told.listener()).record);
   EXPECT_EQ(record["frames_fused"], 3);
   EXPECT_THAT(told.warnings,
               Contains(HasSubstr("the model begins at frame 1, as 1 before it could not be used")));
+}
+
+TEST_F(RunOfAClip, NamesNoFileWhereNoFrameCouldBeUsed) {
+  makeClip(3);
+  for (const char* name : {"000000.png", "000001.png", "000002.png"}) paintBlack(name);
+  Told told;
+  expectError<InputError>([&] { reconstructSequence(options(), told.listener()); },
+                          {"no run folder was written", "the warnings name"});
+  EXPECT_THAT(told.warnings, Contains(HasSubstr("frame 0: skipped_depth: depth on 0 %")));
+  EXPECT_THAT(told.warnings, Contains(HasSubstr("2 more frames, 1 to 2; the last: skipped_depth")));
+  EXPECT_THAT(told.warnings, Not(Contains(HasSubstr("frames.csv"))));
+  Told stopped;
+  WorkListener listener = stopped.listener();
+  listener.progress = [](int done, int /*total*/) { return done < 1; };
+  EXPECT_THAT(reconstructSequence(options(), listener).facts.text(), Not(HasSubstr("written to")));
+  EXPECT_THAT(stopped.warnings, Contains(HasSubstr("nothing is written")));
+  EXPECT_THAT(stopped.warnings, Not(Contains(HasSubstr("frames.csv"))));
 }
 
 TEST_F(RunOfAClip, SaysWhatWasNotFused) {

@@ -119,7 +119,9 @@ MeasuredSequence SequenceMeasurement::measure() {
   record.addSettings(settingsOf(options_.settings).list());
   measureAll(reader, estimator, outputs, record);
   if (record.goodFrames() == 0 && !interrupted_)
-    throw InputError(options_.name + ": no frame could be measured; see the reasons above");
+    throw InputError(options_.name +
+                     ": no frame could be measured, so nothing was written; the "
+                     "errors name the frames and the reasons");
   if (interrupted_) record.setInterrupted();
   MeasuredSequence measured{options_.paths.applyTo(record.json()), record.text(),
                             outputs.writtenFiles(record.goodFrames()), interrupted_};
@@ -155,8 +157,9 @@ void SequenceMeasurement::measureAll(SequenceReader& reader, DepthEstimator& est
     interrupted_ = !reportProgress(listener_.progress, ++done, count) && done < count;
   }
   if (interrupted_ && failure_.empty()) listener_.warn("interrupted: finished results are kept");
-  failures_.conclude("details: summary.json");
-  warnings_.conclude("details: summary.json");
+  const char* where = record.goodFrames() > 0 ? "details: summary.json" : "";
+  failures_.conclude(where);
+  warnings_.conclude(where);
 }
 
 void SequenceMeasurement::measureOne(const FrameResult& result, DepthEstimator& estimator,

@@ -175,11 +175,13 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
       folder.flush({digest, next_frame, reconstructor.state()});
     wanted = reportProgress(listener_.progress, processed, frame_count);
   }
-  rejections_.conclude("reasons: frames.csv");
+  const bool nothing = reconstructor.backend().empty();  // then no run folder is written
+  rejections_.conclude(nothing ? "" : "reasons: frames.csv");
   interrupted_ = (!wanted || input_gone_ || !failure_.empty()) && !at_end;
   if (interrupted_ && !input_gone_ && failure_.empty())
-    listener_.warn("interrupted: finished results are kept; `resume=` continues");
-  if (reconstructor.backend().empty()) return;
+    listener_.warn(nothing ? "interrupted before the first model: nothing is written"
+                           : "interrupted: finished results are kept; `resume=` continues");
+  if (nothing) return;
   if (!interrupted_) folder.saveLastModel(reconstructor.model());
   folder.flush({digest, next_frame, reconstructor.state()});  // resumable until run.json is written
 }
@@ -187,8 +189,11 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
 ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord& record) const {
   record.set("interrupted", interrupted_);
   if (nothing && !interrupted_)
-    throw InputError(options_.name + ": no frame could be used; see the reasons above");
-  for (const std::string& conclusion : record.conclusions()) listener_.warn(conclusion);
+    throw InputError(options_.name +
+                     ": no frame could be used, so no run folder was written; the warnings name "
+                     "the frames and the reasons; `softscope info` checks the sequence");
+  if (!nothing)
+    for (const std::string& conclusion : record.conclusions()) listener_.warn(conclusion);
   Json all = record.json();
   const auto outcomes = checkThresholds(options_.thresholds, all, kOutcomes);
   if (!outcomes.empty()) all["thresholds"] = thresholdsJson(outcomes);
@@ -200,10 +205,11 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
                                        : ". Finished results are kept; continue with `resume=`, "
                                          "without the GPU with `resume=` and `backend=` cpu"));
   if (input_gone_)
-    throw InputError(options_.name +
-                     ": was removed during the run, or its disk; finished results are kept. Put it "
-                     "back and continue with `resume=`");
-  return {written, record.text(options_.out.string()), outcomes, interrupted_};
+    throw InputError(options_.name + ": was removed during the run, or its disk; " +
+                     (nothing ? "nothing is written. Put it back and start again"
+                              : "finished results are kept. Put it back and continue with "
+                                "`resume=`"));
+  return {written, record.text(nothing ? "" : options_.out.string()), outcomes, interrupted_};
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ void RepeatedWarnings::add(const std::string& kind, int frame, const std::string
   Repeated& repeated = entry->second;
   if (repeated.count++ == 0) repeated.second = frame;
   repeated.last = frame;
+  repeated.last_text = text;
 }
 
 void RepeatedWarnings::conclude(const std::string& where) {
@@ -19,7 +20,8 @@ void RepeatedWarnings::conclude(const std::string& where) {
                                    : std::to_string(repeated.count) + " more frames, " +
                                          std::to_string(repeated.second) + " to " +
                                          std::to_string(repeated.last);
-    tell_(kind + ": " + frames + "; " + where);
+    tell_(kind + ": " + frames + "; " +
+          (where.empty() ? "the last: " + repeated.last_text : where));
   }
   kinds_.clear();
 }

@@ -15,13 +15,14 @@ class RepeatedWarnings {
   /// Reports the first warning of a kind immediately: "frame 4: TEXT"; counts the others.
   void add(const std::string& kind, int frame, const std::string& text);
 
-  /// One line per repeated kind: count and
-  /// frames. `where`: file with the full list.
+  /// One line per repeated kind: count and frames. `where`: file with
+  /// the full list; without one, the text of the last frame is reported.
   void conclude(const std::string& where);
 
  private:
   struct Repeated {
     int count = 0, second = 0, last = 0;  // frames that were not reported
+    std::string last_text;
   };
 
   std::function<void(const std::string&)> tell_;

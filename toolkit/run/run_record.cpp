@@ -228,6 +228,7 @@ FactSheet RunRecord::text(const std::string& folder) const {
                       " mm before the fusion of the frame; over " +
                       std::to_string(backprojection_mm_.size()) + " frames");
   if (!frame_ms_.empty()) facts.addLine("time", fixed(meanOf(frame_ms_), 0) + " ms a frame");
+  if (folder.empty()) return facts;
   facts.addLine("written to", folder);
   facts.addLine("look at", folder + "/model.ply (MeshLab), " + folder + "/models.pvd (ParaView)");
   return facts;

@@ -34,7 +34,7 @@ class RunRecord {
   /// with little evidence, a static scope. Included in json().
   std::vector<std::string> conclusions() const;
   FactSheet::Json json() const;
-  /// Short summary as text.
+  /// Short summary as text. `folder`: of the run; empty if nothing was written.
   FactSheet text(const std::string& folder) const;
 
  private:
