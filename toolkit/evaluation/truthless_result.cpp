@@ -12,6 +12,7 @@
 #include "toolkit/record/metric_lists.h"
 #include "toolkit/record/statistics_json.h"
 #include "toolkit/record/version.h"
+#include "toolkit/run/dataset_truth.h"
 #include "toolkit/run/sequence_calibration.h"
 #include "vtk_views/plots/value_series_plot.h"
 
@@ -198,10 +199,13 @@ Json framesJson(const TruthlessResult& result) {
 
 TruthlessResult judgeWithoutTruth(const JudgedRun& run, const std::filesystem::path& sequence,
                                   bool views, const std::function<bool()>& after_model) {
-  findSequence(sequence);  // throws without a sequence
+  const SequencePaths paths = findSequence(sequence);
   TruthlessResult result;
   result.outcomes = run.outcomes;
   result.warnings = run.warnings();
+  if (!paths.form.empty())
+    if (const std::string truth = describeTruth(*recogniseDataset(sequence)); !truth.empty())
+      result.warnings.push_back("truth of the data set: " + truth);
   addPath(run, result);
   for (const auto& [frame, mean_mm] : run.backprojection_mm)
     result.frames[frame].backprojection_mm = mean_mm;
@@ -239,7 +243,7 @@ Json truthlessJson(const TruthlessResult& result) {
 
 FactSheet truthlessFacts(const TruthlessResult& result) {
   FactSheet facts(result.run + " beside the images of " + result.sequence +
-                  ", which has no ground truth");
+                  ", which has no ground truth in groundtruth/");
   addOutcomeFacts(result.outcomes, facts);
   const auto mean = [&](const Value& value, int decimals) {
     return fixed(overFrames(result, value).mean, decimals);

@@ -14,6 +14,7 @@
 #include "stereo/rectification/rectifier.h"
 #include "stereo/rectification/row_alignment.h"
 #include "toolkit/inspection/describe_file.h"
+#include "toolkit/run/dataset_truth.h"
 #include "toolkit/run/stereo_sync.h"
 
 namespace softscope {
@@ -59,17 +60,15 @@ void addCount(const fs::path& folder, const std::string& label, const std::strin
 /// For a clip of a known data set: its name and ground truth.
 void addDataset(const DatasetClip& clip, FactSheet& facts) {
   facts.add("data set", "dataset", clip.form);
-  std::string names;
   FactSheet::Json list = FactSheet::Json::array();
-  for (const fs::path& file : clip.truth) {
-    names += (names.empty() ? "" : ", ") + file.filename().string();
-    list.push_back(file.filename().string());
-  }
+  for (const fs::path& file : clip.truth) list.push_back(file.filename().string());
   facts.addQuietly("dataset_truth", list);
-  if (names.empty())
+  facts.addQuietly("dataset_truth_benchmark",
+                   clip.benchmark.empty() ? FactSheet::Json() : FactSheet::Json(clip.benchmark));
+  if (clip.truth.empty())
     facts.missing("ground truth: the clip can be reconstructed, but not evaluated");
   else
-    facts.addLine("ground truth", names);
+    facts.addLine("truth of the data set", describeTruth(clip));
 }
 
 /// Optional parts: masks, depth, ground truth.
@@ -77,8 +76,11 @@ void addExtras(const std::string& folder, const SequencePaths& paths, FactSheet&
   const fs::path truth = fs::path(folder) / "groundtruth";
   if (paths.mask.empty()) facts.missing("mask/: instruments are not masked");
   addCount(paths.mask, "masks", "masks", {".png", ".bmp", ".jpg", ".tif"}, facts);
-  addCount(paths.depth, "depth files", "depth_files", {".png", ".pfm", ".tif", ".tiff", ".npy"},
-           facts);
+  if (paths.depth_files.empty())
+    addCount(paths.depth, "depth files", "depth_files", {".png", ".pfm", ".tif", ".tiff", ".npy"},
+             facts);
+  else
+    facts.add("depth files", "depth_files", int(paths.depth_files.size()));
   addCount(truth / "mesh", "true meshes", "groundtruth.meshes", {".ply"}, facts);
   addCount(truth / "depth", "true depth", "groundtruth.depth_files",
            {".png", ".pfm", ".tif", ".tiff", ".npy"}, facts);

@@ -24,6 +24,7 @@ std::vector<fs::path> videosIn(const fs::path& folder) {
 DatasetClip stir2026(const fs::path& folder) {
   DatasetClip clip;
   clip.form = "STIR 2026";
+  clip.benchmark = "stir2026";
   clip.paths.calibration = folder / "calib.json";
   clip.truth = existingIn(folder, {"annotations.json", "queries.json"});
   const std::vector<fs::path> videos = videosIn(folder);
@@ -45,6 +46,7 @@ DatasetClip surgt(const fs::path& folder) {
   const SurgtInfo info = readSurgtInfo(folder / "info.yaml");
   DatasetClip clip;
   clip.form = "SurgT";
+  clip.benchmark = "surgt";
   clip.paths.stereo = folder / info.video;
   clip.paths.calibration = folder / "calibration.yaml";
   clip.paths.layout = info.side_by_side ? "side-by-side" : "top-bottom";
@@ -59,6 +61,7 @@ DatasetClip surgt(const fs::path& folder) {
 DatasetClip scared(const fs::path& folder) {
   DatasetClip clip;
   clip.form = "SCARED";
+  clip.benchmark = "scared";
   clip.paths.left = folder / "Left_Image.png";
   clip.paths.right = folder / "Right_Image.png";
   clip.paths.calibration = folder / "endoscope_calibration.yaml";

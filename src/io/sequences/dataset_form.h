@@ -15,6 +15,7 @@ struct DatasetClip {
   std::string form;                          // "STIR 2026", "SurgT", "SCARED", …
   SequencePaths paths;                       // with the packing of both views in one image
   std::vector<std::filesystem::path> truth;  // existing files of ground truth
+  std::string benchmark;                     // name of the benchmark that reads them; empty: none
 };
 
 /// By file names only; none for other folders. Throws InputError

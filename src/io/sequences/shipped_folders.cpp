@@ -58,6 +58,7 @@ fs::path oneCalibration(const fs::path& folder) {
 DatasetClip servCt(const fs::path& folder) {
   DatasetClip clip;
   clip.form = "SERV-CT";
+  clip.benchmark = "servct";
   clip.paths.left = folder / "Left_rectified";
   clip.paths.right = folder / "Right_rectified";
   requirePart(clip.paths.right, "an experiment of SERV-CT");
@@ -70,6 +71,7 @@ DatasetClip servCt(const fs::path& folder) {
 DatasetClip stereoMis(const fs::path& folder) {
   DatasetClip clip;
   clip.form = "StereoMIS";
+  clip.benchmark = "stereomis";
   clip.paths.stereo = onlyVideo(folder, "StereoMIS");
   clip.paths.calibration = folder / "StereoCalibration.ini";
   clip.paths.layout = "top-bottom";
@@ -114,6 +116,7 @@ DatasetClip stirToEnd2025(const fs::path& given) {
   side.replace(at, 4, "right");
   DatasetClip clip;
   clip.form = "STIR";
+  clip.benchmark = "stir";
   clip.paths.left = onlyVideo(given / "frames", "STIR");
   const fs::path right = own.parent_path().parent_path() / side / own.filename() / "frames";
   requirePart(right, "STIR's other view");
