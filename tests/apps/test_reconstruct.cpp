@@ -61,6 +61,16 @@ TEST_F(Reconstruct, OptionsReachTheRun) {
   EXPECT_EQ(paper.json()["configuration"]["deform.node_model"], "affine");
 }
 
+TEST_F(Reconstruct, WarnsOfTrackedPixelsOutsideTheImage) {
+  makeClip(2);
+  const std::string points =
+      write("points.csv", "id,u_px,v_px\n1,80,60\n2,159.6,60\n3,-0.4,119.4\n4,80,-1\n");
+  const Outcome done = reconstruct({"--out", at("run"), "--track", points});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("2 of 4 pixels are outside the left image of 160 x 120 px (id 2, "
+                                  "4)"));
+}
+
 TEST_F(Reconstruct, LimitsSetTheExitCode) {
   makeClip(4);
   const Outcome limited = reconstruct(
@@ -102,6 +112,8 @@ TEST_F(Reconstruct, TellsWhatIsWrongWithItsArguments) {
   expect({"--out", at("r"), "--resume"}, 2, "start the run without --resume");
   expect({"--out", write("file", "x")}, 2, "is a file, but must be a folder");
   expect({"--out", at("r"), "--track", write("t.csv", "id,u_px\n")}, 3, "id,u_px,v_px");
+  expect({"--out", at("r"), "--track", write("far.csv", "id,u_px,v_px\n1,500,20\n2,3,120\n")}, 3,
+         "far.csv: 2 of 2 pixels are outside the left image of 160 x 120 px (id 1, 2)");
   EXPECT_FALSE(fs::exists(at("r"))) << "half-written";
 }
 

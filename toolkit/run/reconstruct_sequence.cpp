@@ -40,11 +40,9 @@ std::string digestOf(const Json& inputs, const std::vector<SettingInfo>& setting
   return sha256OfBytes(all);
 }
 
-std::vector<TrackSeed> seedsOf(const std::filesystem::path& tracks) {
+std::vector<TrackSeed> seedsOf(const std::vector<TrackPixel>& pixels) {
   std::vector<TrackSeed> seeds;
-  if (tracks.empty()) return seeds;
-  for (const TrackPixel& pixel : readTrackPixels(tracks))
-    seeds.push_back({pixel.id, pixel.u_px, pixel.v_px});
+  for (const TrackPixel& pixel : pixels) seeds.push_back({pixel.id, pixel.u_px, pixel.v_px});
   return seeds;
 }
 
@@ -111,7 +109,8 @@ void SequenceRun::skipDone(const Checkpoint& earlier) {
 
 ReconstructedRun SequenceRun::run() {
   options_.validate();
-  const std::vector<TrackSeed> tracked = seedsOf(options_.tracks);
+  const std::vector<TrackPixel> tracked =
+      options_.tracks.empty() ? std::vector<TrackPixel>() : readTrackPixels(options_.tracks);
   requireOutside(options_.out, options_.sequence);
   SequenceOptions& sequence = options_.settings.sequence;
   RunFolder folder({options_.out, options_.save_every, sequence.frames, !tracked.empty(),
@@ -131,8 +130,12 @@ ReconstructedRun SequenceRun::run() {
   reader.expectRows(views.rows);
   FrameWindow frames(reader);
   for (const std::string& warning : reader.calibration().warnings) listener_.warn(warning);
+  const PinholeCamera& left = reader.calibration().left.pinhole;
+  const std::string outside =
+      outsideWarning(tracked, left.width_px, left.height_px, shown(options_.tracks));
+  if (!outside.empty()) listener_.warn(outside);
   Reconstructor reconstructor(backendOf(reader.calibration()), method);
-  reconstructor.track(tracked);
+  reconstructor.track(seedsOf(tracked));
   folder.tellCamera(reconstructor.backend().rig().left);
   RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
   if (sequence.frames.hold_out_every > 0) record.set(kHoldOutKey, sequence.frames.hold_out_every);

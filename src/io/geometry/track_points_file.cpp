@@ -11,6 +11,7 @@
 namespace softscope {
 namespace {
 
+constexpr std::size_t kNamedIds = 5;  // in a message
 constexpr const char* kHeading = "id,u_px,v_px";
 constexpr const char* kAdvice =
     "; expected is the heading id,u_px,v_px and then a line a point, such as 7,312.5,240";
@@ -57,6 +58,25 @@ std::vector<TrackPixel> parseTrackPixels(std::string_view text, const std::strin
   }
   if (pixels.empty()) throw InputError(say(name, ": holds no point", kAdvice));
   return pixels;
+}
+
+std::string outsideWarning(const std::vector<TrackPixel>& pixels, int width_px, int height_px,
+                           const std::string& name) {
+  std::size_t outside = 0;
+  std::string ids;
+  for (const TrackPixel& pixel : pixels) {
+    const bool inside = pixel.u_px >= -0.5 && pixel.u_px < width_px - 0.5 && pixel.v_px >= -0.5 &&
+                        pixel.v_px < height_px - 0.5;  // (0, 0) is a pixel's centre
+    if (inside) continue;
+    if (++outside <= kNamedIds) ids += (outside == 1 ? "" : ", ") + std::to_string(pixel.id);
+  }
+  if (outside == 0) return {};
+  const std::string found =
+      say(name, ": ", outside, " of ", pixels.size(), " pixels are outside the left image of ",
+          width_px, " x ", height_px, " px (id ", ids, outside > kNamedIds ? ", …" : "",
+          "); u_px, v_px are pixels of the first left image, from 0, 0 in the top left");
+  if (outside == pixels.size()) throw InputError(found);
+  return found + ". They get no position";
 }
 
 std::vector<TrackPixel> readTrackPixels(const std::filesystem::path& file) {

@@ -19,4 +19,9 @@ struct TrackPixel {
 std::vector<TrackPixel> readTrackPixels(const std::filesystem::path& file);
 std::vector<TrackPixel> parseTrackPixels(std::string_view text, const std::string& name);
 
+/// Warning that counts and names the pixels outside an image of this size; empty without any.
+/// Throws InputError if all are outside.
+std::string outsideWarning(const std::vector<TrackPixel>& pixels, int width_px, int height_px,
+                           const std::string& name);
+
 }  // namespace softscope
