@@ -83,9 +83,10 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
 RunOptions ReconstructCommand::readSettings() const {
   RunOptions options = RunOptions::ofPreset(preset_);
   Settings settings = settings_.read();
-  if (!matcher_.empty()) addAssignment(settings, "matcher.method=" + matcher_);
-  if (!scope_.empty()) addAssignment(settings, "pose.scope=" + scope_);
-  if (no_correspondence_) addAssignment(settings, "deform.correspondence_weight=0");
+  if (!matcher_.empty()) addAssignment(settings, "matcher.method=" + matcher_, "--matcher");
+  if (!scope_.empty()) addAssignment(settings, "pose.scope=" + scope_, "--scope");
+  if (no_correspondence_)
+    addAssignment(settings, "deform.correspondence_weight=0", "--no-correspondence");
   settingsOf(options).apply(settings);
   source_.applyFrames(options.sequence);
   options.sequence.frames.hold_out_every = hold_out_;

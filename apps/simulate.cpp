@@ -73,8 +73,8 @@ SimulateOptions SimulateCommand::readOptions() const {
   Settings settings;
   if (!scenario_.empty()) settings = readSettings(scenario_);
   for (const std::string& assignment : assignments_) addAssignment(settings, assignment);
-  if (!frames_.empty()) addAssignment(settings, "frames=" + frames_);
-  if (!seed_.empty()) addAssignment(settings, "seed=" + seed_);
+  if (!frames_.empty()) addAssignment(settings, "frames=" + frames_, "--frames");
+  if (!seed_.empty()) addAssignment(settings, "seed=" + seed_, "--seed");
   settingsOf(options).apply(settings);
   if (!organ_.empty()) options.organ = organ_;
   if (!texture_.empty()) options.texture = texture_;

@@ -107,6 +107,9 @@ TEST_F(Simulate, WhatCannotBeSimulatedIsOneLine) {
     expectOneLine(simulate(at("s"), line), 2);
     EXPECT_FALSE(fs::exists(at("s")));
   }
+  EXPECT_THAT(simulate(at("s"), {"--frames", "0"}).err,
+              HasSubstr("--frames: frames is 0, expected"));
+  EXPECT_THAT(simulate(at("s"), {"--seed", "-3"}).err, HasSubstr("--seed: seed is -3, expected 0"));
 }
 
 }  // namespace

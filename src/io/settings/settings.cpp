@@ -48,19 +48,19 @@ void flatten(const toml::table& table, const std::string& head, const std::strin
 }
 
 /// Value parsed by TOML; else a number that TOML does not know (.5), or a text.
-Setting valueOf(const std::string& key, const std::string& value) {
-  requireShallowToml(value, "`set=` " + printable(key));
+Setting valueOf(const std::string& key, const std::string& value, const std::string& origin) {
+  requireShallowToml(value, origin + " " + printable(key));
   try {
     const toml::table table = toml::parse("x = " + value);
     if (table.size() == 1) {
-      Setting out = settingOf(*table.get("x"), key, kAssigned);
+      Setting out = settingOf(*table.get("x"), key, origin);
       if (!std::holds_alternative<std::string>(out.value)) out.text = value;
       return out;
     }
   } catch (const toml::parse_error&) {
   }
-  if (const auto number = decimalNumber<double>(value)) return {*number, value, kAssigned};
-  return {value, value, kAssigned};
+  if (const auto number = decimalNumber<double>(value)) return {*number, value, origin};
+  return {value, value, origin};
 }
 
 }  // namespace
@@ -81,13 +81,13 @@ Settings readSettings(const std::filesystem::path& file) {
   return parseSettings(readBytes(file, kCalibrationLimitBytes), shown(file));
 }
 
-void addAssignment(Settings& settings, std::string_view assignment) {
+void addAssignment(Settings& settings, std::string_view assignment, const std::string& origin) {
   const std::size_t equals = assignment.find('=');
   const std::string key(trimmed(assignment.substr(0, equals)));
   if (equals == std::string_view::npos || key.empty())
-    throw OptionError(say("`set=` ", excerpt(assignment),
+    throw OptionError(say(origin, " ", excerpt(assignment),
                           ": key=value is expected, such as stereo.method=sgbm."));
-  settings[key] = valueOf(key, std::string(trimmed(assignment.substr(equals + 1))));
+  settings[key] = valueOf(key, std::string(trimmed(assignment.substr(equals + 1))), origin);
 }
 
 }  // namespace softscope

@@ -13,7 +13,7 @@ namespace softscope {
 struct Setting {
   std::variant<bool, std::int64_t, double, std::string> value;
   std::string text;    // as written, without the quotes of a text
-  std::string origin;  // "settings.toml:3" or kAssigned, for messages
+  std::string origin;  // "settings.toml:3", kAssigned or an option, for messages
 };
 
 /// Origin of settings of addAssignment().
@@ -28,7 +28,9 @@ Settings readSettings(const std::filesystem::path& file);
 Settings parseSettings(std::string_view toml, const std::string& name);
 
 /// Adds "key=value" with a value in TOML syntax; other values are texts
-/// (stereo.method=sgbm). Throws OptionError for a missing key or `=`.
-void addAssignment(Settings& settings, std::string_view assignment);
+/// (stereo.method=sgbm). `origin`: the option that states it, for messages.
+/// Throws OptionError for a missing key or `=`.
+void addAssignment(Settings& settings, std::string_view assignment,
+                   const std::string& origin = kAssigned);
 
 }  // namespace softscope
