@@ -182,8 +182,11 @@ int CalibrateCommand::refine(const InterruptGuard& interrupt) const {
 int CalibrateCommand::run() {
   InterruptGuard interrupt;
   if (!refine_.empty()) return refine(interrupt);
-  require(!board_.empty() && !square_.empty(), "--board", board_,
-          "--board and --square are needed, or --refine with a clip of tissue");
+  if (board_.empty() || square_.empty())
+    throw OptionError(std::string("softscope calibrate: ") +
+                      (board_.empty() ? "--board CxR, e.g. 9x6," : "--square MM") +
+                      " is missing; --board and --square are needed, or --refine with a clip of "
+                      "tissue");
   const BoardFilmOptions film_options = filmOptions();
   SolveOptions options;
   options.bundle.lens_coefficients = lens_;

@@ -65,6 +65,23 @@ void refuseUnknown(const Command& command, const ArgumentList& arguments,
   if (!rest.empty()) fail(command, "`" + rest[0] + "` is one argument too many");
 }
 
+[[noreturn]] void failWithoutValue(const Command& command, const Argument& argument,
+                                   const std::string& found) {
+  fail(command, argument.name + " has no value" + found + ": " + argument.help);
+}
+
+/// CLI11 takes the next word as the value, also if it is an option.
+void refuseOptionsAsValues(const Command& command, const ArgumentList& arguments,
+                           const CLI::App& app) {
+  for (const Argument& argument : arguments.all()) {
+    if (std::holds_alternative<bool*>(argument.target)) continue;
+    for (const std::string& value : app.get_option(argument.name)->results())
+      for (const Argument& other : arguments.all())
+        if (!other.isPositional() && value == other.name)
+          failWithoutValue(command, argument, ", `" + value + "` follows");
+  }
+}
+
 void parseArguments(Command& command, const ArgumentList& arguments,
                     const std::vector<std::string>& words) {
   CLI::App app;
@@ -75,8 +92,12 @@ void parseArguments(Command& command, const ArgumentList& arguments,
     app.parse(
         std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 requires reverse order
   } catch (const CLI::ArgumentMismatch& error) {
-    fail(command, error.what());
+    const std::string text = error.what();  // "--board: 1 required  missing"
+    for (const Argument& argument : arguments.all())
+      if (text.rfind(argument.name + ":", 0) == 0) failWithoutValue(command, argument, "");
+    fail(command, text);
   }
+  refuseOptionsAsValues(command, arguments, app);
   refuseUnknown(command, arguments, app.remaining());
   for (const Argument& argument : arguments.all()) {
     const CLI::Option* option = app.get_option(argument.name);

@@ -179,18 +179,18 @@ Eigen::Vector3d BoardOptions::cornerPosition(int id) const {
 }
 
 void BoardOptions::validate() const {
-  require(cornerColumns() >= 3 && columns <= 60, "columns", columns,
+  require(cornerColumns() >= 3 && columns <= 60, "`board=`: columns", columns,
           "a board has 3 to 60 inner corners a row");
-  require(cornerRows() >= 3 && rows <= 60, "rows", rows,
+  require(cornerRows() >= 3 && rows <= 60, "`board=`: rows", rows,
           "a board has 3 to 60 inner corners a column");
-  require(hasMarkers() || columns != rows, "columns and rows", columns,
+  require(hasMarkers() || columns != rows, "`board=`: columns and rows", columns,
           "a checkerboard with equal numbers of columns and rows is ambiguous by rotations of 90 "
           "degrees; use one of 9x6 inner corners, or a ChArUco board");
-  require(square_mm > 0 && square_mm <= 200, "square_mm", square_mm,
+  require(square_mm > 0 && square_mm <= 200, "`square=`", square_mm,
           "must be above 0, at most 200");
-  require(marker_mm >= 0 && marker_mm < square_mm, "marker_mm", marker_mm,
+  require(marker_mm >= 0 && marker_mm < square_mm, "`marker=`", marker_mm,
           "must be less than the square's side");
-  require(dictionaries().count(dictionary) == 1, "dictionary", dictionary,
+  require(dictionaries().count(dictionary) == 1, "`dictionary=`", dictionary,
           "must be one of 4X4_50, 4X4_100, 4X4_250, 4X4_1000, and the same of 5X5 and 6X6");
 }
 

@@ -146,7 +146,15 @@ TEST_F(Calibrate, WhatCannotBeIsOneLine) {
     return arguments;
   };
   fails(with(4, "8x5"), 3, "Is --board right");
-  fails(with(4, "9"), 2, "--board");
+  fails(with(4, "9"), 2, "--board is 9, but must be COLUMNSxROWS");
+  fails(with(4, ""), 2, "--board CxR, e.g. 9x6, is missing");
+  fails(with(4, "2x6"), 2, "--board: columns is 2, but a board has 3 to 60");
+  fails({"calibrate", at("left"), at("right"), "--out", at("c.yaml"), "--board"}, 2,
+        "--board has no value: inner corners of a checkerboard");
+  fails({"calibrate", at("left"), at("right"), "--out", at("c.yaml"), "--board", "--square", "3"},
+        2, "--board has no value, `--square` follows");
+  fails({"calibrate", at("left"), at("right"), "--out", at("c.yaml"), "--board", "9x6"}, 2,
+        "--square MM is missing");
   fails(with(4, "9x0.5"), 2, "--board");
   fails(with(4, "6x6"), 2, "by rotations of 90");
   fails(with(6, "0"), 2, "--square");
