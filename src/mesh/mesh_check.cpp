@@ -119,7 +119,7 @@ MeshCheck checkMesh(const TriangleMesh& mesh) {
   return check;
 }
 
-std::vector<std::string> meshWarnings(const MeshCheck& check) {
+std::vector<std::string> meshWarnings(const MeshCheck& check, const std::string& unit_option) {
   std::vector<std::string> lines;
   const auto warn = [&](bool holds, auto... parts) {
     if (!holds) return;
@@ -129,9 +129,9 @@ std::vector<std::string> meshWarnings(const MeshCheck& check) {
   };
   const float longest = check.size_mm().maxCoeff();
   warn(check.likely_unit_mm == 1000, "the box is ", longest,
-       " mm long; in metres? Then say so (unit 1000 mm)");
+       " mm long; in metres? Then give 1000 as ", unit_option);
   warn(check.likely_unit_mm == 0.001, "the box is ", longest,
-       " mm long; in micrometres? Then say so (unit 0.001 mm)");
+       " mm long; in micrometres? Then give 0.001 as ", unit_option);
   warn(check.border_edges > 0, check.border_edges,
        " open edges: no inside and no volume; signed distances are unknown at the border");
   warn(check.crowded_edges > 0, check.crowded_edges, " edges of more than two triangles");

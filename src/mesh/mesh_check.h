@@ -38,6 +38,8 @@ struct MeshCheck {
 MeshCheck checkMesh(const TriangleMesh& mesh);
 
 /// Warnings, one line each; empty for a closed, oriented, manifold surface in mm.
-std::vector<std::string> meshWarnings(const MeshCheck& check);
+/// `unit_option`: the options that state the unit of the file.
+std::vector<std::string> meshWarnings(const MeshCheck& check,
+                                      const std::string& unit_option = "unit in mm");
 
 }  // namespace softscope

@@ -32,6 +32,14 @@ TEST_F(Info, ProblemsSetTheExitCode) {
   EXPECT_EQ(checked.json()["unreadable_frames"], 1);
 }
 
+TEST_F(Info, AMeshInMetresGetsTheOptionsThatStateIt) {
+  const std::string mesh = write("m.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n");
+  EXPECT_THAT(run({"info", mesh}).out, HasSubstr("in metres? Then give 1000 as --reference-unit-mm "
+                                                 "or --test-unit-mm (compare)"));
+  const Outcome compared = run({"compare", "--reference", mesh, "--test", mesh});
+  EXPECT_THAT(compared.out + compared.err, HasSubstr("give 1000 as --test-unit-mm"));
+}
+
 TEST_F(Info, TemplatesOfCalibrationsAreWritten) {
   const std::string file = at("stereo.yaml");
   const Outcome template_of = run({"calibration-template", "stereo", "--out", file});

@@ -19,9 +19,9 @@ namespace {
 constexpr const char* kAccuracy = "accuracy";  // part of the record for metrics without path
 
 void addMeshWarnings(const TriangleMesh& mesh, const std::string& name,
-                     std::vector<std::string>& warnings) {
+                     const std::string& unit_option, std::vector<std::string>& warnings) {
   if (mesh.empty()) return;
-  for (const std::string& warning : meshWarnings(checkMesh(mesh)))
+  for (const std::string& warning : meshWarnings(checkMesh(mesh), unit_option))
     warnings.push_back(name + ": " + warning);
 }
 
@@ -50,8 +50,9 @@ void readSurfaces(const CompareOptions& options, const std::string& test,
     throw InputError(options.reference +
                      ": is a set of points, but the reference must be a surface; give a mesh");
   compared.test = readSurfaceOrPoints(test, options.test_unit_mm);
-  addMeshWarnings(compared.reference, options.reference, compared.result.warnings);
-  addMeshWarnings(compared.test, options.test, compared.result.warnings);
+  std::vector<std::string>& warnings = compared.result.warnings;
+  addMeshWarnings(compared.reference, options.reference, "--reference-unit-mm", warnings);
+  addMeshWarnings(compared.test, options.test, "--test-unit-mm", warnings);
 }
 
 }  // namespace

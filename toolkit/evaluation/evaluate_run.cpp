@@ -99,7 +99,7 @@ EvaluationResult againstMesh(const EvaluateOptions& options, const JudgedRun& ru
   result.outcomes = run.outcomes;
   for (const int frame : run.frames) result.times_s[frame] = run.timeOf(frame);
   result.alignment = options.alignment;
-  for (const std::string& warning : meshWarnings(checkMesh(mesh)))
+  for (const std::string& warning : meshWarnings(checkMesh(mesh), "--reference-unit-mm"))
     result.warnings.push_back(options.reference + ": " + warning);
   AlignedSeries series =
       judgeAgainstMesh(run, models, mesh, options.alignment, counting(progress, models.size()));

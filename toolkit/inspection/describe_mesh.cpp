@@ -10,6 +10,10 @@
 namespace softscope {
 namespace {
 
+constexpr const char* kUnitOptions =
+    "--reference-unit-mm or --test-unit-mm (compare), --reference-unit-mm (evaluate), --unit-mm "
+    "(slice, figure), --input-unit-mm (export, which writes mm) or --set organ.unit_mm (simulate)";
+
 template <class Vector>
 std::string triple(const Vector& v) {
   return fixed(v[0], 2) + ", " + fixed(v[1], 2) + ", " + fixed(v[2], 2);
@@ -71,7 +75,7 @@ FactSheet describeMesh(const std::string& file) {
   facts.add("space", mesh.space.empty() ? "not said" : mesh.space, "space", mesh.space);
   addSurface(check, facts);
   facts.addQuietly("likely_unit_mm", check.likely_unit_mm);
-  for (const std::string& warning : meshWarnings(check)) facts.warn(warning);
+  for (const std::string& warning : meshWarnings(check, kUnitOptions)) facts.warn(warning);
   if (mesh.space.empty()) facts.missing("SPACE=LPS or SPACE=RAS in the header; LPS is assumed");
   return facts;
 }

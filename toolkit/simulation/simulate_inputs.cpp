@@ -29,7 +29,7 @@ OrganFile readOrgan(const SimulateOptions& options) {
   RepairedMesh repaired = repairMesh(std::move(mesh), shown(options.organ));
   for (const std::string& repair : repaired.repairs)
     warnings.push_back(shown(options.organ) + ": " + repair);
-  for (const std::string& warning : meshWarnings(checkMesh(repaired.mesh)))
+  for (const std::string& warning : meshWarnings(checkMesh(repaired.mesh), "--set organ.unit_mm"))
     warnings.push_back(shown(options.organ) + ": " + warning);
   return {std::move(repaired.mesh), std::move(warnings)};
 }
