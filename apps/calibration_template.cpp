@@ -7,6 +7,7 @@
 
 #include "apps/command.h"
 #include "apps/exit_codes.h"
+#include "apps/result_output.h"
 #include "io/files/atomic_file.h"
 
 namespace softscope {
@@ -34,16 +35,22 @@ class CalibrationTemplateCommand : public Command {
 
   int run() override {
     const std::string text = calibrationTemplate(kind_);
-    if (out_.empty()) {
-      std::cout << text << std::flush;
-      return kDone;
+    if (!out_.empty()) {
+      writeFile(out_, text, force_);
+      spdlog::info("written: {}", out_);
     }
-    writeFile(out_, text, force_);
-    spdlog::info("written: {}", out_);
+    if (common.json)
+      printJson({{"schema_version", 1}, {"kind", kind_}, {"template", text}, {"file", fileJson()}});
+    else if (out_.empty())
+      std::cout << text << std::flush;
     return kDone;
   }
 
  private:
+  FactSheet::Json fileJson() const {
+    return out_.empty() ? FactSheet::Json() : FactSheet::Json(out_);
+  }
+
   std::string kind_, out_;
   bool force_ = false;
 };

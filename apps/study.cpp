@@ -38,6 +38,7 @@ class StudyCommand : public Command {
 
  private:
   StudyRun readRun() const;
+  int listCases(const StudyRun& run) const;
   int runOne(const StudyRun& run) const;
   int runAll(StudyRun run) const;
   int writeTable(const StudyRun& run) const;
@@ -71,10 +72,7 @@ int StudyCommand::run() {
   if (int(list_) + int(table_) + int(!case_.empty()) > 1)
     throw OptionError("--list, --case and --table exclude each other; give one");
   const StudyRun run = readRun();
-  if (list_) {
-    for (const StudyCase& one : run.study.cases) std::cout << printable(one.name) << "\n";
-    return kDone;
-  }
+  if (list_) return listCases(run);
   if (out_.empty()) throw OptionError("softscope study: --out is missing: folder for all results");
   run.folder.requireUsable();
   if (table_ && !std::filesystem::exists(run.folder.marker()))
@@ -84,6 +82,16 @@ int StudyCommand::run() {
   run.folder.claim();
   if (table_) return writeTable(run);
   return case_.empty() ? runAll(run) : runOne(run);
+}
+
+int StudyCommand::listCases(const StudyRun& run) const {
+  FactSheet::Json names = FactSheet::Json::array();
+  for (const StudyCase& one : run.study.cases) names.push_back(one.name);
+  if (common.json)
+    printJson({{"schema_version", 1}, {"cases", names}});
+  else
+    for (const StudyCase& one : run.study.cases) std::cout << printable(one.name) << "\n";
+  return kDone;
 }
 
 int StudyCommand::runOne(const StudyRun& run) const {

@@ -47,6 +47,9 @@ TEST_F(Info, TemplatesOfCalibrationsAreWritten) {
   EXPECT_THAT(template_of.err, HasSubstr("written: " + file));
   EXPECT_EQ(run({"info", file}).exit_code, 0);
   EXPECT_EQ(run({"calibration-template", "stereo"}).out, textOf(file)) << "comments and all";
+  const auto json = run({"calibration-template", "stereo", "--json"}).json();
+  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["template"], textOf(file));
   const Outcome wrong = run({"calibration-template", "rectifed"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("did you mean `rectified`?"));

@@ -97,6 +97,9 @@ TEST_F(StudyCommand, OneCaseAloneAndTheTableAfterwards) {
   const std::string toml = small() + "[[case]]\nname = 'a'\n[[case]]\nname = 'b'\n";
   const Outcome names = run({"study", write("s.toml", toml), "--list"});
   EXPECT_EQ(names.out, "a\nb\n");
+  const auto list = run({"study", at("s.toml"), "--list", "--json"}).json();
+  EXPECT_EQ(list["schema_version"], 1);
+  EXPECT_EQ(list["cases"], (std::vector<std::string>{"a", "b"}));
   ASSERT_EQ(study(toml, {"--case", "a"}).exit_code, 0);
   EXPECT_FALSE(fs::exists(at("out/study.json")));
   EXPECT_EQ(study(toml, {"--table"}).exit_code, 1) << "b is still to be run";

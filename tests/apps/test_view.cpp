@@ -41,6 +41,7 @@ TEST_F(View, OptionsReachTheScreenshot) {
                                     "signed", "--range-mm", "0.5", "--look", "scope", "--nodes",
                                     "--arrows", "--no-scope", "--clean", "--frame", "3", "--json"});
   ASSERT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_EQ(shown.json()["schema_version"], 1);
   EXPECT_EQ(shown.json()["screenshot"]["frame"], 3);
   EXPECT_EQ(readColourImage(at("view.png")).width_px, 480);
   EXPECT_THAT(shown.err, HasSubstr("the camera is unknown; shown with a free view"));

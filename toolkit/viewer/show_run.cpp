@@ -138,7 +138,7 @@ std::vector<std::string> viewWarnings(const ViewRequest& request, const RunSourc
 
 WrittenView writeView(const ViewRequest& request, RunSource& source, const WorkListener& listener) {
   WrittenView written;
-  written.record = {{"run", request.run.run}, {"models", source.count()}};
+  written.record = {{"schema_version", 1}, {"run", request.run.run}, {"models", source.count()}};
   if (!request.screenshot.empty()) {
     Playback playback(source);
     playback.goTo(request.firstMoment(source, true));
