@@ -23,6 +23,7 @@ class Command {
   virtual int run() = 0;
 
   CommonOptions common;
+  std::vector<std::string> words;  // of the command line, from the name of the command on
 };
 
 std::unique_ptr<Command> makeBenchmarkCommand();

@@ -142,6 +142,7 @@ ParsedLine parseCommandLine(const std::vector<std::string>& words,
     return {nullptr, helpText(command, arguments)};
   parseArguments(command, arguments, rest);
   command.common.validate();
+  command.words = words;
   return {&command, ""};
 }
 

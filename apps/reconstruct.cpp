@@ -102,6 +102,7 @@ int ReconstructCommand::run() {
   options_.name = source_.left;
   options_.out = out_;
   options_.tracks = track_;
+  options_.command_line = words;
   WorkProgress progress("reconstruct", progressStyle(common.quiet), interrupt);
   const ReconstructedRun made = reconstructSequence(options_, listenerOf(progress));
   if (common.json)

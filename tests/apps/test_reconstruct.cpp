@@ -48,6 +48,9 @@ TEST_F(Reconstruct, OptionsReachTheRun) {
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const auto record = done.json();
   EXPECT_EQ(record, nlohmann::json::parse(textOf(at("run/run.json"))));
+  EXPECT_EQ(record["command_line"][0], "reconstruct");
+  EXPECT_EQ(record["command_line"][1], "clip") << "no path";
+  EXPECT_EQ(record["command_line"][10], "track_points.csv");
   EXPECT_EQ(record["frames"], 3);
   EXPECT_EQ(record["hold_out_every"], 3);
   EXPECT_EQ(record["machine"]["backend"], "cpu");

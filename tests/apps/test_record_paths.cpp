@@ -12,6 +12,7 @@ using testing::Not;
 
 TEST(RecordPaths, NamesStandForPathsInInputsAndTexts) {
   const FactSheet::Json record{
+      {"command_line", {"reconstruct", "/mnt/jane/Doe Jane", "--out=/mnt/jane/run", "a>1"}},
       {"inputs",
        {{"left", {{"path", "/mnt/jane/Doe Jane/left"}, {"sha256", "ab/cd"}}},
         {"reference", "visits/doe/liver.stl"}}},
@@ -22,6 +23,7 @@ TEST(RecordPaths, NamesStandForPathsInInputsAndTexts) {
        {"/mnt/jane/Doe Jane/left/3.png: is black", "visits/doe/liver.stl: has holes",
         "visits/doe/seen.ply: is empty", "it drifts by 0.1 mm/s"}}};
   const FactSheet::Json names = RecordPaths{}.applyTo(record);
+  EXPECT_EQ(names["command_line"].dump(), R"(["reconstruct","Doe Jane","--out=run","a>1"])");
   EXPECT_EQ(names["inputs"]["left"]["path"], "left");
   EXPECT_EQ(names["inputs"]["left"]["sha256"], "ab/cd");
   EXPECT_EQ(names["inputs"]["reference"], "liver.stl");

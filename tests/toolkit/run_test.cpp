@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "io/files/file_hash.h"
 #include "io/files/file_lock.h"
 #include "io/images/image_writer.h"
 #include "support/in_folder.h"
@@ -69,7 +70,9 @@ TEST_F(RunOfAClip, HasTheFilesThatOthersRead) {
   EXPECT_THAT(textOf(at("run/model.ply")), HasSubstr("property float sigma_mm"));
   const Json record = Json::parse(textOf(at("run/run.json")));
   EXPECT_EQ(done, record);
-  EXPECT_EQ(std::string(record["inputs"]["calibration"]["sha256"]).size(), 64u);
+  EXPECT_EQ(record["inputs"]["calibration"]["path"], "calibration.yaml");
+  EXPECT_EQ(record["inputs"]["calibration"]["sha256"], sha256Of(clip + "/calibration.yaml"));
+  EXPECT_EQ(record["inputs"]["tracks"]["sha256"], sha256Of(tracked.tracks));
   EXPECT_EQ(record["configuration"]["stereo.disparity_max_px"], 63);
   const Json crate = Json::parse(textOf(at("run/ro-crate-metadata.json")));
   EXPECT_EQ(crate["@context"], "https://w3id.org/ro/crate/1.1/context");

@@ -18,6 +18,8 @@ using Json = FactSheet::Json;
 /// Path as given, and the name that replaces it.
 using KnownPath = std::pair<std::string, std::string>;
 
+constexpr const char* kCommandLine = "command_line";
+
 template <std::size_t N>
 bool isAmong(const std::string& key, const char* const (&names)[N]) {
   return std::find(std::begin(names), std::end(names), key) != std::end(names);
@@ -86,6 +88,13 @@ std::string sentence(std::string text, const std::vector<KnownPath>& known) {
   });
 }
 
+/// Word of a command line: CLIP, --out=FOLDER or KEY=FILE.
+std::string commandWord(const std::string& word) {
+  const std::size_t path = word.find('=') == std::string::npos ? 0 : word.find('=') + 1;
+  if (word.find('/', path) == std::string::npos) return word;
+  return word.substr(0, path) + recordedName(word.substr(path));
+}
+
 }  // namespace
 
 Json RecordPaths::applyTo(const Json& record) const {
@@ -102,7 +111,9 @@ Json RecordPaths::applyTo(const Json& record) const {
     return a.first.size() > b.first.size();  // a file before its folder
   });
   forEachText(result, "", false, [&](Json& text, const std::string& key, bool in_inputs) {
-    if (!in_inputs && !holdsPath(key, in_inputs)) text = sentence(text.get<std::string>(), known);
+    if (in_inputs || holdsPath(key, in_inputs)) return;
+    const auto written = text.get<std::string>();
+    text = key == kCommandLine ? commandWord(written) : sentence(written, known);
   });
   return result;
 }

@@ -27,7 +27,7 @@ constexpr const char* kOutcomes = "outcomes";  // part of the record for metrics
 
 /// Hash of all inputs and settings that determine the result; a resumed run must have the same.
 std::string digestOf(const Json& inputs, const std::vector<SettingInfo>& settings,
-                     const std::filesystem::path& tracks, const FrameRange& frames) {
+                     const FrameRange& frames) {
   std::string all;
   if (frames.step != 1) all += "frame_step=" + std::to_string(frames.step) + "\n";
   if (frames.hold_out_every != 0)
@@ -36,7 +36,6 @@ std::string digestOf(const Json& inputs, const std::vector<SettingInfo>& setting
     all += setting.key + "=" + setting.current_text + "\n";
   for (const auto& [part, input] : inputs.items())
     all += part + "=" + input["sha256"].get<std::string>() + "\n";
-  if (!tracks.empty()) all += sha256Of(tracks);
   return sha256OfBytes(all);
 }
 
@@ -119,9 +118,9 @@ ReconstructedRun SequenceRun::run() {
   const ReconstructionOptions& method = options_.settings.method;
   const ViewRelation views = relateViews(options_.sequence, method.depth, sequence);
   if (!views.warning.empty()) listener_.warn(views.warning);
-  const Json inputs = inputsJson(options_.sequence, method.depth.stereo.model);
+  const Json inputs = inputsJson(options_.sequence, method.depth.stereo.model, options_.tracks);
   const SettingsBinder binder = settingsOf(options_.settings);
-  const std::string digest = digestOf(inputs, binder.list(), options_.tracks, sequence.frames);
+  const std::string digest = digestOf(inputs, binder.list(), sequence.frames);
   const std::optional<Checkpoint> earlier = earlierState(folder, digest);
   const int first_frame = earlier ? earlier->next_frame : sequence.frames.begin;
   if (earlier) skipDone(*earlier);
@@ -138,6 +137,7 @@ ReconstructedRun SequenceRun::run() {
   reconstructor.track(seedsOf(tracked));
   folder.tellCamera(reconstructor.backend().rig().left);
   RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
+  if (!options_.command_line.empty()) record.set("command_line", options_.command_line);
   if (sequence.frames.hold_out_every > 0) record.set(kHoldOutKey, sequence.frames.hold_out_every);
   checkThresholds(options_.thresholds, record.json(), kOutcomes);  // reports errors before the work
   if (earlier) {

@@ -28,6 +28,7 @@ struct ReconstructOptions {
   bool overwrite = false;             // replace an earlier run
   std::vector<Threshold> thresholds;  // on run.json; metrics without a path are those of `outcomes`
   RecordPaths paths;
+  std::vector<std::string> command_line;  // for run.json, without the program; empty: none
 
   /// Throws OptionError.
   void validate() const;

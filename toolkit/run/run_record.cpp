@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "core/tolerance.h"
 #include "eval/statistics/statistics.h"
+#include "io/calibrations/calibration_files.h"
 #include "io/calibrations/one_camera.h"
 #include "io/files/file_hash.h"
 #include "toolkit/record/machine.h"
@@ -49,16 +50,21 @@ constexpr double kWarnShare = 0.1;  // smallest share of frames for a warning
 
 }  // namespace
 
-Json inputsJson(const SequencePaths& paths, const fs::path& stereo_model) {
+Json inputsJson(const SequencePaths& paths, const fs::path& stereo_model, const fs::path& tracks) {
+  std::vector<std::pair<std::string, fs::path>> parts{
+      {"left", paths.left}, {"right", paths.right}, {"stereo", paths.stereo}};
+  std::string part = "calibration";
+  int number = 1;
+  for (const fs::path& file : locateCalibration(paths.calibration).files) {
+    parts.emplace_back(part, file);
+    part = "calibration_" + std::to_string(++number);
+  }
+  parts.insert(parts.end(), {{"mask", paths.mask},
+                             {"depth", paths.depth},
+                             {"timestamps", paths.timestamps},
+                             {"tracks", tracks},
+                             {"stereo_model", stereo_model}});
   Json inputs = Json::object();
-  const std::pair<const char*, const fs::path&> parts[] = {{"left", paths.left},
-                                                           {"right", paths.right},
-                                                           {"stereo", paths.stereo},
-                                                           {"calibration", paths.calibration},
-                                                           {"mask", paths.mask},
-                                                           {"depth", paths.depth},
-                                                           {"timestamps", paths.timestamps},
-                                                           {"stereo_model", stereo_model}};
   for (const auto& [name, path] : parts)
     if (!path.empty()) inputs[name] = {{"path", path.string()}, {"sha256", sha256Of(path)}};
   return inputs;

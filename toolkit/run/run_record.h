@@ -15,8 +15,11 @@
 
 namespace softscope {
 
-/// Path and SHA-256 of every existing part. Throws InputError.
-FactSheet::Json inputsJson(const SequencePaths& paths, const std::filesystem::path& stereo_model);
+/// Path and SHA-256 of every existing part; of a folder, the SHA-256 of names and contents of its
+/// files. Further files of a calibration are calibration_2 …. `tracks`: pixels to be tracked; may
+/// be empty. Throws InputError.
+FactSheet::Json inputsJson(const SequencePaths& paths, const std::filesystem::path& stereo_model,
+                           const std::filesystem::path& tracks = {});
 
 class RunRecord {
  public:
