@@ -114,6 +114,13 @@ double studentQuantile(double probability, double degrees) {
   return probability < 0.5 ? -(low + high) / 2 : (low + high) / 2;
 }
 
+Interval meanInterval(const Statistics& values) {
+  if (values.count < 2) return {};
+  const double degrees = static_cast<double>(values.count) - 1;
+  const double half = studentQuantile(0.975, degrees) * values.sd / std::sqrt(degrees);  // sd: n
+  return {values.mean - half, values.mean + half};
+}
+
 Interval bootstrapMean(const std::vector<double>& values, std::uint64_t seed) {
   const std::vector<double> numbers = withoutNaN(values);
   if (numbers.size() < 3) return {};

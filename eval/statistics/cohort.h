@@ -51,6 +51,9 @@ struct SignedRankTest {
 };
 SignedRankTest signedRankTest(const std::vector<double>& differences);
 
+/// 95 % interval of the mean by Student's t; NaN for fewer than two values.
+Interval meanInterval(const Statistics& values);
+
 /// Quantile of Student's t with `degrees` of freedom (>
 /// 0) at `probability` in (0, 1). Throws OptionError.
 double studentQuantile(double probability, double degrees);

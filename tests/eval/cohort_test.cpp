@@ -23,6 +23,13 @@ TEST(Cohort, StudentQuantilesAreThoseOfTables) {
   EXPECT_THROW(studentQuantile(0.9, 0), OptionError);
 }
 
+TEST(Cohort, TheIntervalOfAMeanIsStudents) {
+  const Interval interval = meanInterval(statistics({1, 2, 3}));  // s = 1, t of 2 degrees: 4.3027
+  EXPECT_NEAR(interval.low, 2 - 4.3027 / std::sqrt(3.0), 1e-4);
+  EXPECT_NEAR(interval.high, 2 + 4.3027 / std::sqrt(3.0), 1e-4);
+  EXPECT_TRUE(std::isnan(meanInterval(statistics({1})).low));
+}
+
 TEST(Cohort, SummaryOfAHandMadeSet) {
   const CohortSummary s = summariseCohort({1, 2, kNone, 3, 4, 10}, 1);
   EXPECT_EQ(s.count, 5u);

@@ -2,6 +2,7 @@
 #include "toolkit/comparison/surface_fit.h"
 
 #include "core/error.h"
+#include "eval/statistics/cohort.h"
 #include "eval/surfaces/surface_errors.h"
 #include "io/calibrations/calibration_parts.h"
 #include "io/files/file_bytes.h"
@@ -82,6 +83,9 @@ FactSheet::Json surfaceFitJson(const SurfaceFit& fit) {
   if (fit.landmarks) {
     json["fre"] = statisticsJson(fit.landmarks->fre_mm, "_mm");
     json["tre_leave_one_out"] = statisticsJson(fit.landmarks->tre_mm, "_mm");
+    const Interval interval_mm = meanInterval(fit.landmarks->tre_mm);
+    json["tre_leave_one_out"]["mean_ci_95_mm"] = {orNull(interval_mm.low),
+                                                  orNull(interval_mm.high)};
   }
   if (fit.icp)
     json["icp"] = {{"stop", stopText(fit.icp->stop)},
@@ -93,12 +97,15 @@ FactSheet::Json surfaceFitJson(const SurfaceFit& fit) {
 void addFitFacts(const SurfaceFit& fit, FactSheet& facts) {
   facts.addLine("alignment", fit.method);
   if (fit.before_mm) facts.addLine("  before", spreadText(*fit.before_mm));
+  const Interval tre_ci_mm = fit.landmarks ? meanInterval(fit.landmarks->tre_mm) : Interval();
   if (fit.landmarks)
     facts.addLine("  landmarks", "FRE rmse " + fixed(fit.landmarks->fre_mm.rmse, 3) + " mm" +
                                      (fit.landmarks->tre_mm.count == 0
                                           ? std::string("; TRE takes four landmarks")
                                           : "; TRE, leaving one out, mean " +
-                                                fixed(fit.landmarks->tre_mm.mean, 3) + " mm"));
+                                                fixed(fit.landmarks->tre_mm.mean, 3) +
+                                                " mm (95 % confidence " + fixed(tre_ci_mm.low, 3) +
+                                                " to " + fixed(tre_ci_mm.high, 3) + " mm)"));
   if (fit.icp)
     facts.addLine("  icp", std::string(stopText(fit.icp->stop)) + " after " +
                                std::to_string(fit.icp->iterations) + " iterations");

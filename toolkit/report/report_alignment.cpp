@@ -45,10 +45,13 @@ std::string targetErrorText(const ReportCase& c) {
   };
   const double n = value("n"), mean_mm = value("mean_mm"), sd_mm = value("sd_mm");
   if (!(n >= 2 && n < 1e9) || !std::isfinite(mean_mm) || !std::isfinite(sd_mm)) return {};
-  const double half_mm = studentQuantile(0.975, n - 1) * sd_mm / std::sqrt(n - 1);  // sd: over n
+  Statistics tre_mm;
+  tre_mm.count = static_cast<std::size_t>(n);
+  tre_mm.mean = mean_mm;
+  tre_mm.sd = sd_mm;
   return "At a position that was not used for the alignment the error is " +
          millimetresText(mean_mm) + " on average (TRE over " + std::to_string(std::llround(n)) +
-         " landmarks, 95 % confidence " + intervalText({mean_mm - half_mm, mean_mm + half_mm}) +
+         " landmarks, 95 % confidence " + intervalText(meanInterval(tre_mm)) +
          " mm, by Student's t).";
 }
 
