@@ -48,11 +48,13 @@ std::string messageOf(const std::filesystem::filesystem_error& error) {
 }
 
 /// With a closed stdin, stdout or stderr, the next opened file would get its
-/// number and receive its output. A pipe without a reader becomes a write error.
+/// number and receive its output. A pipe without a reader becomes a write error,
+/// and so does a file at the limit of its size.
 void secureStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDWR);  // lowest free number
   signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace

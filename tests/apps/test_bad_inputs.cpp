@@ -151,6 +151,18 @@ TEST_F(BadInputs, StdoutOnAFullDiskIsAnErrorOfEveryCommand) {
   }
 }
 
+TEST_F(BadInputs, ALimitOfFileSizesIsAnErrorOfTheFile) {
+  const std::string sequence = makeSequence("s", 3);
+  const std::string line = executable() + " reconstruct " + sequence + " --out " + at("r") +
+                           " --save-every 1 --quiet > /dev/null 2> " + at("err");
+  const int status = std::system(("ulimit -f 64; exec " + line).c_str());
+  ASSERT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+  EXPECT_THAT(textOf(at("err")), HasSubstr(at("r/models/000000.")));
+  EXPECT_THAT(textOf(at("err")), HasSubstr("ulimit -f"));
+  EXPECT_TRUE(fs::exists(at("r/nodes/000000.csv"))) << "what was written stays";
+}
+
 TEST_F(BadInputs, ClosedStreamsReachNoFile) {
   const std::string sequence = makeSequence("s", 2), same = " --threads 1 --out ";
   const std::string line = executable() + " reconstruct " + sequence + same;

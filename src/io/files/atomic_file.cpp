@@ -121,7 +121,9 @@ void AtomicFile::commit() {
 void AtomicFile::fail(const char* what) const {
   const int code = errno;
   throw Error(say(shown(target_), ": ", what, ": ", std::strerror(code), ". ",
-                  code == ENOSPC ? "Free some space." : "Check the folder and its rights."));
+                  code == ENOSPC  ? "Free some space."
+                  : code == EFBIG ? "Raise the limit of file sizes (ulimit -f)."
+                                  : "Check the folder and its rights."));
 }
 
 void writeFile(const fs::path& target, std::string_view bytes, bool overwrite) {
