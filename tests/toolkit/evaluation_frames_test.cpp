@@ -244,6 +244,16 @@ TEST_F(EvaluationWithoutTruth, MeasuresWhatNeedsNoneAndSaysWhatIsMissing) {
     EXPECT_THAT(page, HasSubstr(part));
 }
 
+TEST_F(EvaluationWithoutTruth, WithoutACalibrationThereAreNoViews) {
+  const std::string clip = makeSequence("clip", 4);
+  fs::remove(clip + "/calibration.yaml");
+  makeWallRun(at("run"), 4);
+  const Json record = written(evaluateRun(optionsOf(at("run"), clip)).record);
+  EXPECT_EQ(record["camera"]["step"]["n"], 3);
+  EXPECT_EQ(record["view"]["models_judged"], 0);
+  EXPECT_THAT(record["warnings"].dump(), HasSubstr("Without a calibration no model is rendered"));
+}
+
 TEST_F(EvaluationWithoutTruth, LimitsAreOfWhatNeedsNone) {
   EvaluateOptions limited = optionsOf(slopeRun().run, slopeRun().sequence);
   limited.thresholds = limits({"psnr_db<99"});

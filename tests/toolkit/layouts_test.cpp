@@ -51,7 +51,6 @@ class Layouts : public InFolder {
     EvaluateOptions options;
     options.run = at(run);
     options.reference = clip;
-    options.views = false;
     return written(evaluateRun(options).record);
   }
   Trajectory pathOf(const std::string& clip, const std::string& run) const {
@@ -131,9 +130,12 @@ TEST_F(Layouts, ShippedFormsAreReconstructedAsOurOwn) {
     EXPECT_EQ(info.value("depth_files", 0), layout == "c3vd" ? 2 : 0) << "colour is no depth";
     const Trajectory path = pathOf(clip, layout + "_run");
     ASSERT_EQ(path.size(), own.size()) << layout;
+    const Json judged = evaluated(layout + "_run", clip);
+    EXPECT_EQ(judged["view"]["models_judged"], 2);
+    EXPECT_GT(judged["view"]["psnr_db"], 25) << "of the images that the run was made from";
     if (const auto truth = truths.find(layout); truth != truths.end()) {
       EXPECT_THAT(describePath(clip).text(), HasSubstr(truth->second));
-      EXPECT_THAT(evaluated(layout + "_run", clip)["warnings"].dump(), HasSubstr(truth->second));
+      EXPECT_THAT(judged["warnings"].dump(), HasSubstr(truth->second));
     }
     // Lossless images give the same path; films are compressed, C3VD has depth instead of a pair.
     const bool same = layout == "servct" || layout == "d4d" || layout == "hamlyn";

@@ -48,7 +48,7 @@ void requireSize(int width_px, int height_px, const PinholeCamera& left, const f
 ViewJudge::ViewJudge(const SequenceTruth& truth)
     : rig_(truth.rig), rectifier_(sequenceCalibration(truth.folder)) {
   const SequencePaths paths = pathsOrNone(truth.folder);
-  pictures_ = picturesIn(paths.left);
+  pictures_ = paths.left_files.empty() ? picturesIn(paths.left) : paths.left_files;
   masks_ = picturesIn(paths.mask);
   if (!paths.stereo.empty() || isVideo(paths.left))
     video_ = std::make_unique<FrameLoader>(paths, SequenceOptions());

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/error.h"
+#include "io/calibrations/calibration_files.h"
 #include "io/sequences/sequence_paths.h"
 #include "stereo/rectification/rectifier.h"
 #include "toolkit/evaluation/evaluate_view.h"
@@ -64,6 +65,17 @@ void addPath(const JudgedRun& run, TruthlessResult& result) {
                                    run.trajectory[counted.back()].world_from_left;
   result.moved_mm = motion.translation().norm();
   result.turned_deg = angleDeg(motion);
+}
+
+/// Empty for a sequence with a calibration.
+std::string calibrationWarning(const SequencePaths& paths) {
+  try {
+    locateCalibration(paths.calibration);
+    return {};
+  } catch (const InputError& error) {
+    return std::string(error.what()) +
+           " Without a calibration no model is rendered: PSNR and SSIM are not measured";
+  }
 }
 
 void addDrawnViews(const JudgedRun& run, const std::filesystem::path& sequence,
@@ -210,7 +222,11 @@ TruthlessResult judgeWithoutTruth(const JudgedRun& run, const std::filesystem::p
   for (const auto& [frame, mean_mm] : run.backprojection_mm)
     result.frames[frame].backprojection_mm = mean_mm;
   for (const auto& [frame, share] : run.coverage) result.frames[frame].coverage = share;
-  if (views) addDrawnViews(run, sequence, after_model, result);
+  if (!views) return result;
+  if (const std::string warning = calibrationWarning(paths); !warning.empty())
+    result.warnings.push_back(warning);
+  else
+    addDrawnViews(run, sequence, after_model, result);
   return result;
 }
 

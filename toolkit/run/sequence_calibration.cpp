@@ -6,8 +6,21 @@
 #include "io/sequences/sequence_reader.h"
 
 namespace softscope {
+namespace {
+
+/// In the form of a data set, whose calibration may be outside of the folder.
+bool isDatasetClip(const std::filesystem::path& sequence) {
+  try {
+    return !findSequence(sequence).form.empty();
+  } catch (const InputError&) {  // ground truth without images
+    return false;
+  }
+}
+
+}  // namespace
 
 StereoCalibration sequenceCalibration(const std::filesystem::path& sequence) {
+  if (isDatasetClip(sequence)) return SequenceReader(sequence).calibration();
   const StereoCalibration calibration = readCalibration(sequence);
   if (calibration.left.pinhole.width_px > 0) return calibration;
   try {
