@@ -11,6 +11,7 @@
 #include "io/text/message.h"
 #include "toolkit/record/child_process.h"
 #include "toolkit/study/run_study.h"
+#include "toolkit/study/study_case.h"
 #include "toolkit/study/study_gpus.h"
 
 namespace softscope {
@@ -96,9 +97,11 @@ int StudyCommand::listCases(const StudyRun& run) const {
 
 int StudyCommand::runOne(const StudyRun& run) const {
   const InterruptGuard interrupt;
+  const StudyCase& chosen = run.study.caseNamed(case_);
   const CaseEnd end = runStudyCase(
-      run, run.study.caseNamed(case_), [&] { return interrupt.requested(); }, logListener());
+      run, chosen, [&] { return interrupt.requested(); }, logListener());
   if (end == CaseEnd::kInterrupted) return kInterrupted;
+  if (common.json) printJson(recordOf(chosen, run.folder));
   return end == CaseEnd::kFailed ? kThresholdFailed : kDone;
 }
 

@@ -100,7 +100,9 @@ TEST_F(StudyCommand, OneCaseAloneAndTheTableAfterwards) {
   const auto list = run({"study", at("s.toml"), "--list", "--json"}).json();
   EXPECT_EQ(list["schema_version"], 1);
   EXPECT_EQ(list["cases"], (std::vector<std::string>{"a", "b"}));
-  ASSERT_EQ(study(toml, {"--case", "a"}).exit_code, 0);
+  const Outcome alone = study(toml, {"--case", "a", "--json"});
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_EQ(alone.json(), record("a"));
   EXPECT_FALSE(fs::exists(at("out/study.json")));
   EXPECT_EQ(study(toml, {"--table"}).exit_code, 1) << "b is still to be run";
   EXPECT_EQ(result()["cases"][0]["status"], "done");
