@@ -39,23 +39,24 @@ Carriers carriersByDefinition(const NodeReach::Near& near, const Eigen::Vector3f
 class CarrierFinderTest : public testing::TestWithParam<int> {
  protected:
   CarrierFinderTest() {
-    for (std::size_t i = 0; i < hill_.size(); ++i) all_.push_back(static_cast<int>(i));
-    cells_ = std::make_unique<SurfaceCells>(hill_.positions_mm, all_, options_.cell_mm);
+    cells_ = std::make_unique<SurfaceCells>(hill_.positions_mm, options_.cell_mm);
     reach_ = std::make_unique<NodeReach>(*cells_, options_);
     for (int node = 0; node < GetParam(); ++node) {
       const Eigen::Vector3f& at = hill_.positions_mm[random_() % hill_.size()];
       graph_.positions_mm.push_back(at.cast<double>());
       reach_->spread(node, at);
     }
-    for (const int i : all_)
-      if (cells_->cellOf(i) >= 0 && reach_->near(cells_->cellOf(i)).count > 0) points_.push_back(i);
+    for (std::size_t i = 0; i < hill_.size(); ++i)
+      if (reach_->near(cellOf(i)).count > 0) points_.push_back(static_cast<int>(i));
   }
+
+  int cellOf(std::size_t point) const { return cells_->cellAt(hill_.positions_mm[point]); }
 
   void expectDefinition() {
     CarrierFinder finder(*reach_, graph_, options_.node_spacing_mm);
     ASSERT_FALSE(points_.empty());
     for (const int i : points_) {
-      const int cell = cells_->cellOf(i);
+      const int cell = cellOf(i);
       const Eigen::Vector3f& point_mm = hill_.positions_mm[i];
       const Carriers found = finder.find(cell, point_mm);
       const Carriers expected =
@@ -68,7 +69,7 @@ class CarrierFinderTest : public testing::TestWithParam<int> {
   std::mt19937 random_{5};
   GraphOptions options_;
   PointModel hill_ = scenes::makeHill(24, 18, 0.25);
-  std::vector<int> all_, points_;
+  std::vector<int> points_;
   std::unique_ptr<SurfaceCells> cells_;
   std::unique_ptr<NodeReach> reach_;
   WarpGraph graph_;

@@ -18,12 +18,6 @@ class NodeReachTest : public testing::Test {
     for (int cell = 0; cell < cells_.size(); ++cell) all_cells_.push_back(cell);
   }
 
-  static std::vector<int> everyPoint(const PointModel& model) {
-    std::vector<int> points;
-    for (std::size_t i = 0; i < model.size(); ++i) points.push_back(static_cast<int>(i));
-    return points;
-  }
-
   void expectSameLists(const NodeReach& found, const NodeReach& expected,
                        const std::vector<int>& cells) {
     for (const int cell : cells) {
@@ -36,7 +30,7 @@ class NodeReachTest : public testing::Test {
   std::mt19937 random_{11};
   GraphOptions options_;
   PointModel hill_ = scenes::makeHill(24, 18, 0.25);
-  SurfaceCells cells_{hill_.positions_mm, everyPoint(hill_), options_.cell_mm};
+  SurfaceCells cells_{hill_.positions_mm, options_.cell_mm};
   std::vector<NodeReach::Start> starts_;
   std::vector<int> all_cells_;
 };

@@ -70,25 +70,6 @@ class CellNumbering {
   int last_block_ = -1;      // of findOrAdd()
 };
 
-/// Looks up points in sequence. Neighbours in the list mostly share a cube, which is cached.
-class CellFinder {
- public:
-  explicit CellFinder(const CellNumbering& table) : table_(table) {}
-  /// Cell of the point, -1 if none.
-  int find(const Eigen::Vector3f& point_mm) {
-    Cube cube;
-    if (!table_.cubeOf(point_mm, &cube)) return -1;
-    if (!(cube == last_cube_)) last_cell_ = table_.find(cube);
-    last_cube_ = cube;
-    return last_cell_;
-  }
-
- private:
-  const CellNumbering& table_;
-  Cube last_cube_{-1, -1, -1};
-  int last_cell_ = -1;
-};
-
 /// Numbers of the cells of a block, and of those around it.
 class BlockWithRim {
  public:

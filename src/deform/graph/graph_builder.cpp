@@ -1,6 +1,5 @@
 #include "deform/graph/graph_builder.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>
 #include <limits>
@@ -20,52 +19,7 @@ namespace {
 using Positions = std::vector<Eigen::Vector3f>;
 using Bindings = std::vector<PointBinding>;
 
-/// Cubes of one reach around unbound points: nothing changes beyond two of them.
-class ChangingRegion {
- public:
-  ChangingRegion(const Positions& positions_mm, const std::vector<int>& unbound, double reach_mm);
-  bool contains(const Eigen::Vector3f& position_mm) const {
-    return box_mm_.contains(position_mm) && CellFinder(cubes_).find(position_mm) >= 0;
-  }
-  std::vector<int> pointsInside(const Positions& positions_mm) const;
-
- private:
-  CellNumbering cubes_;
-  Eigen::AlignedBox3f box_mm_;  // of more than the cubes; most of a large model is outside
-};
-
-ChangingRegion::ChangingRegion(const Positions& positions_mm, const std::vector<int>& unbound,
-                               double reach_mm)
-    : cubes_(reach_mm) {
-  constexpr int kAround = 2;
-  CellNumbering centres(reach_mm);
-  Cube cube;
-  for (const int point : unbound) {
-    if (!cubes_.cubeOf(positions_mm[point], &cube)) continue;
-    centres.findOrAdd(cube);
-    box_mm_.extend(positions_mm[point]);
-  }
-  for (int c = 0; c < centres.size(); ++c)
-    for (int dz = -kAround; dz <= kAround; ++dz)
-      for (int dy = -kAround; dy <= kAround; ++dy)
-        for (int dx = -kAround; dx <= kAround; ++dx)
-          cubes_.findOrAdd(
-              {centres.cube(c).x + dx, centres.cube(c).y + dy, centres.cube(c).z + dz});
-  const Eigen::Vector3f margin_mm =
-      Eigen::Vector3f::Constant(static_cast<float>((kAround + 2) * reach_mm));
-  box_mm_ = {box_mm_.min() - margin_mm, box_mm_.max() + margin_mm};
-}
-
-std::vector<int> ChangingRegion::pointsInside(const Positions& positions_mm) const {
-  return parallelFind(
-      static_cast<int>(positions_mm.size()), kPointsPerTask,
-      [&](int begin, int end, std::vector<int>* found) {
-        CellFinder finder(cubes_);
-        for (int i = begin; i < end; ++i)
-          if (box_mm_.contains(positions_mm[i]) && finder.find(positions_mm[i]) >= 0)
-            found->push_back(i);
-      });
-}
+constexpr double kReachesOfChange = 2;  // nothing changes farther from unbound points
 
 /// The node closest to a position, of the first `count`; `count` without any.
 std::size_t nearestNode(const WarpGraph& graph, std::size_t count,
@@ -161,11 +115,12 @@ class Growth {
          const std::vector<int>& unbound, Bindings* bindings, WarpGraph* graph)
       : options_(options),
         positions_mm_(positions_mm),
+        unbound_(unbound),
         bindings_(*bindings),
         graph_(*graph),
-        region_(positions_mm, unbound, NodeReach::reachMm(options)),
-        points_(region_.pointsInside(positions_mm)),
-        cells_(positions_mm, points_, options.cell_mm),
+        region_(positions_mm, unbound, kReachesOfChange * NodeReach::reachMm(options),
+                options.cell_mm),
+        cells_(positions_mm, options.cell_mm, region_),
         reach_(cells_, options),
         near_new_node_(static_cast<std::size_t>(cells_.size()), 0) {
     for (std::size_t j = 0; j < graph_.size(); ++j) {
@@ -197,10 +152,9 @@ class Growth {
   std::vector<int> cellsOfUnbound() const {
     std::vector<char> is_found(static_cast<std::size_t>(cells_.size()), 0);
     std::vector<int> found;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const int cell = cells_.cellOf(static_cast<int>(i));
-      if (cell < 0 || bindings_[points_[i]].bound() || std::exchange(is_found[cell], 1)) continue;
-      found.push_back(cell);
+    for (const int point : unbound_) {
+      const int cell = cells_.cellAt(positions_mm_[point]);
+      if (cell >= 0 && !std::exchange(is_found[cell], 1)) found.push_back(cell);
     }
     return found;
   }
@@ -234,9 +188,9 @@ class Growth {
   /// In the order of the points: row by row of the image.
   void addNodes() {
     graph_.since_reference.resize(graph_.size());
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const int cell = cells_.cellOf(static_cast<int>(i));
-      if (cell < 0 || bindings_[points_[i]].bound() || reach_.covered(cell)) continue;
+    for (const int point : unbound_) {
+      const int cell = cells_.cellAt(positions_mm_[point]);
+      if (cell < 0 || reach_.covered(cell)) continue;
       const int node = static_cast<int>(graph_.size());
       const Eigen::Vector3f position_mm = positions_mm_[cells_.representative(cell)];
       // The cells that the new node reaches need all of their nodes.
@@ -249,28 +203,32 @@ class Growth {
     }
   }
 
-  /// Of points_, those without a binding and those near a new node.
-  std::vector<int> pointsToBind() const {
-    std::vector<int> to_bind;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const int cell = cells_.cellOf(static_cast<int>(i));
-      if (cell >= 0 && (!bindings_[points_[i]].bound() || near_new_node_[cell]))
-        to_bind.push_back(static_cast<int>(i));
-    }
+  /// Those without a binding and those near a new node, ascending, with their cells.
+  std::vector<std::pair<int, int>> pointsToBind() const {
+    std::vector<std::pair<int, int>> to_bind;
+    for (const int point : unbound_)
+      if (const int cell = cells_.cellAt(positions_mm_[point]); cell >= 0)
+        to_bind.emplace_back(point, cell);
+    for (int cell = 0; cell < cells_.size(); ++cell)
+      if (near_new_node_[cell])
+        cells_.visitPoints(cell, [&](int point) {
+          if (bindings_[point].bound()) to_bind.emplace_back(point, cell);
+        });
+    std::sort(to_bind.begin(), to_bind.end());
     return to_bind;
   }
 
   void bindPoints() {
-    const std::vector<int> to_bind = pointsToBind();
+    const std::vector<std::pair<int, int>> to_bind = pointsToBind();
     std::vector<Carriers> carriers(to_bind.size());
     parallelRanges(static_cast<int>(to_bind.size()), kPointsPerTask / 8, [&](int begin, int end) {
       CarrierFinder finder(reach_, graph_, options_.node_spacing_mm);
       for (int k = begin; k < end; ++k)
-        carriers[k] = finder.find(cells_.cellOf(to_bind[k]), positions_mm_[points_[to_bind[k]]]);
+        carriers[k] = finder.find(to_bind[k].second, positions_mm_[to_bind[k].first]);
     });
     StencilBook book(&graph_.stencils);
     for (std::size_t k = 0; k < to_bind.size(); ++k) {
-      PointBinding& binding = bindings_[points_[to_bind[k]]];
+      PointBinding& binding = bindings_[to_bind[k].first];
       ++(binding.bound() ? result_.points_rebound : result_.points_bound);
       binding.stencil = book.numberOf(carriers[k].stencil);
       binding.weights = carriers[k].weights;
@@ -280,10 +238,10 @@ class Growth {
 
   GraphOptions options_;
   const Positions& positions_mm_;
+  const std::vector<int>& unbound_;
   Bindings& bindings_;
   WarpGraph& graph_;
-  ChangingRegion region_;
-  std::vector<int> points_;
+  SurfaceRegion region_;
   SurfaceCells cells_;
   NodeReach reach_;
   std::vector<NodeReach::Start> waiting_;  // known nodes of the region that did not walk yet
