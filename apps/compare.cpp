@@ -89,7 +89,7 @@ void CompareCommand::declare(ArgumentList& arguments) {
   arguments.option("--fail-if", "LIMIT", fail_if_,
                    "e.g. accuracy.p95_mm>2: then exit code 1; repeatable");
   arguments.option("--reference-unit-mm", "N", options_.reference_unit_mm,
-                   "mm per unit of the file: 1000 for metres");
+                   "mm per unit of the file: 1000 for metres (default: as it states, else 1)");
   arguments.option("--test-unit-mm", "N", options_.test_unit_mm, "the same for the test");
   softscope::declare(options_.paths, arguments);
   arguments.flag("--force", force_, "overwrite existing files");

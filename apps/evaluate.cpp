@@ -73,7 +73,7 @@ void EvaluateCommand::declare(ArgumentList& arguments) {
   arguments.option("--align", "HOW", align_,
                    "to a mesh: none (the default), rigid (one for all models), icp (each model)");
   arguments.option("--reference-unit-mm", "N", options_.reference_unit_mm,
-                   "mm per unit of a mesh: 1000 for metres");
+                   "mm per unit of a mesh: 1000 for metres (default: as it states, else 1)");
   arguments.option("--map", "KIND", options_.map_kind,
                    "for maps with ambiguous names: disparity (px) or depth (mm)");
   arguments.option("--calibration", "FILE", options_.calibration,

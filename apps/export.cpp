@@ -59,7 +59,7 @@ void ExportCommand::declare(ArgumentList& arguments) {
   arguments.option("--unit", "UNIT", request_.unit,
                    "of the file: mm (default), cm or m; glTF: always m");
   arguments.option("--input-unit-mm", "N", request_.input_unit_mm,
-                   "mm per unit of MODEL: 1000 for metres (default 1)");
+                   "mm per unit of MODEL: 1000 for metres (default: as it states, else 1)");
   arguments.option("--gap-mm", "N", request_.surface.gap_mm,
                    "wider gaps between points are holes (default: 5 point spacings)");
   arguments.option("--island-mm2", "N", request_.surface.least_island_mm2,

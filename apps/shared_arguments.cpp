@@ -27,8 +27,9 @@ void declare(FigureOptions& figure, ArgumentList& arguments) {
                    "grey window: auto, soft-tissue, lung, bone, liver, vessels, or WIDTH,LEVEL");
   arguments.option("--dots-within-mm", "N", figure.dot_reach_mm,
                    "distance within which points are drawn in a plane (default 0.5)");
-  arguments.option("--unit-mm", "N", figure.unit_mm,
-                   "mm per unit of the surface files: 1000 for metres");
+  arguments.option(
+      "--unit-mm", "N", figure.unit_mm,
+      "mm per unit of the surface files: 1000 for metres (default: as they state, else 1)");
   declare(figure.volume, arguments);
   arguments.option("--style", "NAME", figure.style, "ieee (default), nature, elsevier or slides");
   arguments.option("--width-mm", "N", figure.width_mm,

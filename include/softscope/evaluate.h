@@ -33,7 +33,7 @@ struct Evaluation {
 struct EvaluationOptions {
   std::string align = "none";    // to a mesh: none, rigid (one for all models), icp (each model)
   bool each_model = false;       // against a mesh: every saved model instead of the last
-  double reference_unit_mm = 1;  // of a mesh file: 1000 for metres
+  double reference_unit_mm = 0;  // of a mesh file: 1000 for metres; 0: as it states
   bool views = true;             // render models for depth, PSNR and SSIM
   std::string out;               // folder of evaluation.json, tables and figures; empty: none
   bool overwrite = false;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/length_unit.h"
 #include "core/point_cloud.h"
 #include "core/triangle_mesh.h"
 
@@ -15,12 +16,6 @@ struct ModelSurface {
   std::vector<Triangle> triangles;
   std::string space;  // "LPS", "RAS", or empty if unknown
   std::string frame;  // camera frame "world", "left" …; else empty
-};
-
-/// Unit of the lengths in a file.
-struct LengthUnit {
-  std::string name = "mm";
-  double mm = 1;  // length of the unit
 };
 
 }  // namespace softscope

@@ -20,6 +20,7 @@ struct TriangleMesh {
   std::vector<Triangle> triangles;
   std::vector<Rgb8> colours;  // empty, or one per vertex
   std::string space;          // "LPS", "RAS", or empty if unknown
+  double unit_mm = 1;         // length of one unit of the file that it was read from
 
   bool empty() const { return triangles.empty(); }
 };

@@ -12,7 +12,7 @@ namespace softscope {
 /// Content of a file before unit conversion and checks.
 struct ParsedMesh {
   TriangleMesh mesh;
-  std::string_view comments;  // part of the file that may contain SPACE=LPS
+  std::string_view comments;  // part of the file that may contain SPACE=LPS and `unit cm`
 };
 
 /// All throw InputError that begins with `name`.

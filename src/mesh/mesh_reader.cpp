@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/length_unit.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/text_scanner.h"
 
@@ -106,7 +107,7 @@ void requireFinite(const TriangleMesh& mesh, const std::string& name) {
 }  // namespace
 
 void MeshReadOptions::validate() const {
-  require(unit_mm > 0 && std::isfinite(unit_mm), "unit_mm", unit_mm, "must be above 0");
+  require(unit_mm >= 0 && std::isfinite(unit_mm), "unit_mm", unit_mm, "must be above 0");
 }
 
 TriangleMesh parseMesh(std::string_view bytes, const std::string& name,
@@ -114,9 +115,9 @@ TriangleMesh parseMesh(std::string_view bytes, const std::string& name,
   options.validate();
   ParsedMesh parsed = parse(bytes, name);
   TriangleMesh& mesh = parsed.mesh;
-  if (options.unit_mm != 1)
-    for (Eigen::Vector3f& v : mesh.vertices_mm)
-      v = (v.cast<double>() * options.unit_mm).cast<float>();
+  mesh.unit_mm = unitOfFileMm(options.unit_mm, parsed.comments);
+  if (mesh.unit_mm != 1)
+    for (Eigen::Vector3f& v : mesh.vertices_mm) v = (v.cast<double>() * mesh.unit_mm).cast<float>();
   requireTriangles(mesh, name);
   requireIndices(mesh, name);
   requireFinite(mesh, name);

@@ -10,7 +10,7 @@
 namespace softscope {
 
 struct MeshReadOptions {
-  double unit_mm = 1;  // length of one unit of the file: 1000 for metres
+  double unit_mm = 0;  // length of one unit of the file: 1000 for metres; 0: unitOfFileMm()
 
   /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;

@@ -208,6 +208,17 @@ TEST_F(Comparison, UnitsAndSpacesAreMatchedAndTold) {
   EXPECT_THAT(result["space"].dump(), HasSubstr("negated"));
 }
 
+TEST_F(Comparison, AFileWithoutASpaceIsTakenForLpsBesideOneThatNamesIt) {
+  std::string ras = "# SPACE=RAS\n";
+  for (const char* corner : {"0 0", "-20 0", "-20 -20", "0 -20"})
+    ras += std::string("v ") + corner + " 0.75\n";
+  write("ras.obj", ras + "f 1 2 3 4\n");
+  const Json result = compared("ras.obj");  // reference.obj names none
+  EXPECT_NEAR(result["accuracy"]["mean_mm"], 0.75, 1e-6);
+  EXPECT_THAT(result["warnings"].dump(), HasSubstr("names no space"));
+  EXPECT_THAT(compared("above.obj")["warnings"].dump(), testing::Not(HasSubstr("names no space")));
+}
+
 TEST_F(Comparison, WritesNumbersSurfaceAndFigure) {
   const FileComparison found = compareInto("out", options("above.obj"));
   EXPECT_EQ(written(found.record), Json::parse(textOf(at("out/comparison.json"))));

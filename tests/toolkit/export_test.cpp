@@ -15,6 +15,7 @@
 #include "support/made_run.h"
 #include "tests/io/temporary_folder.h"
 #include "tests/toolkit/records.h"
+#include "toolkit/comparison/compare_inputs.h"
 #include "toolkit/export/export_model.h"
 #include "toolkit/report/write_report.h"
 #include "toolkit/run/model_file.h"
@@ -105,6 +106,32 @@ TEST_F(ExportModel, AMeshBecomesAnotherFormatAndUnit) {
   EXPECT_EQ(last.triangle_count, first.triangle_count);
   EXPECT_NEAR(last.area_mm2, first.area_mm2, 1e-3);
   EXPECT_EQ(readMesh(at("b.stl")).space, "RAS");
+}
+
+TEST_F(ExportModel, WhatAFileStatesOfItsUnitIsRead) {
+  exported(wavePly(), "a.ply");
+  const double area_mm2 = checkMesh(readMesh(at("a.ply"))).area_mm2;
+  for (const char* name : {"cm.ply", "cm.obj", "cm.stl", "cm.vtp"}) {
+    ExportRequest centimetres = request(at("a.ply"), name);
+    centimetres.unit = "cm";
+    exportModel(centimetres);
+    const TriangleMesh mesh = readSurfaceOrPoints(at(name), 0);
+    EXPECT_EQ(mesh.unit_mm, 10) << name;
+    EXPECT_NEAR(checkMesh(mesh).area_mm2, area_mm2, 1e-3 * area_mm2) << name;
+    const std::string again = std::string("mm_of_") + name + ".ply";
+    exported(at(name), again);
+    EXPECT_NEAR(checkMesh(readMesh(at(again))).area_mm2, area_mm2, 1e-3 * area_mm2) << name;
+    EXPECT_NEAR(checkMesh(readSurfaceOrPoints(at(name), 1)).area_mm2, area_mm2 / 100,
+                1e-5 * area_mm2)
+        << name << ", as requested";
+  }
+  ExportRequest points = request(wavePly(), "points.ply");
+  points.points = true;
+  points.unit = "cm";
+  exportModel(points);
+  const TriangleMesh read = readSurfaceOrPoints(at("points.ply"), 0);
+  ASSERT_EQ(read.vertices_mm.size(), wave().points_mm.size());
+  EXPECT_NEAR((read.vertices_mm.back() - wave().points_mm.back()).norm(), 0, 1e-4);
 }
 
 TEST_F(ExportModel, TakesRunsTheirFramesAndTheirSeries) {

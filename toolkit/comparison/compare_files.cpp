@@ -77,6 +77,10 @@ FileComparison compareFiles(const CompareOptions& options) {
   const std::string test = testFile(options, result.warnings);
   result.test = test;
   readSurfaces(options, test, compared);
+  if (compared.reference.space.empty() != compared.test.space.empty())
+    result.warnings.push_back((compared.test.space.empty() ? test : options.reference) +
+                              ": names no space, unlike the other file; LPS is assumed. Write "
+                              "SPACE=LPS or SPACE=RAS into its header");
   result.space = matchSpaces(compared.reference, compared.test);
   result.fit = fitSurface(compared.reference, compared.test.vertices_mm, options.fit);
   compared.test.vertices_mm = movePoints(result.fit.reference_from_test, compared.test.vertices_mm);

@@ -20,7 +20,7 @@ struct CompareOptions {
   std::vector<double> taus_mm{0.5, 1, 2};  // for precision, recall, F-score and surface Dice
   std::string observed;                    // file of the observed region; empty: no split
   double observed_reach_mm = 2;            // distance within which the reference is observed
-  double reference_unit_mm = 1, test_unit_mm = 1;
+  double reference_unit_mm = 0, test_unit_mm = 0;  // 0: as the files state
   std::vector<Threshold> thresholds;
   RecordPaths paths;
 

@@ -2,6 +2,7 @@
 #include "toolkit/comparison/compare_inputs.h"
 
 #include "core/error.h"
+#include "core/length_unit.h"
 #include "io/files/file_bytes.h"
 #include "io/text/message.h"
 #include "mesh/mesh_reader.h"
@@ -24,24 +25,25 @@ TriangleMesh pointsFrom(const std::string& bytes, const std::string& name, doubl
   TriangleMesh points;
   ModelFile file = parseModel(bytes, name);
   points.vertices_mm = std::move(file.model.positions_mm);
-  for (Eigen::Vector3f& p : points.vertices_mm) p = (p.cast<double>() * unit_mm).cast<float>();
-  points.space = spaceOf(std::string_view(bytes).substr(0, bytes.find("end_header")));
+  const std::string_view header = std::string_view(bytes).substr(0, bytes.find("end_header"));
+  points.unit_mm = unitOfFileMm(unit_mm, header);
+  for (Eigen::Vector3f& p : points.vertices_mm)
+    p = (p.cast<double>() * points.unit_mm).cast<float>();
+  points.space = spaceOf(header);
   return points;
 }
 
-TriangleMesh vtkSurface(const std::filesystem::path& file, double unit_mm) {
-  requireFile(file);
-  TriangleMesh mesh = readVtkSurface(file.string());
-  for (Eigen::Vector3f& p : mesh.vertices_mm) p = (p.cast<double>() * unit_mm).cast<float>();
-  return mesh;
-}
+std::string spaceOrLps(const TriangleMesh& mesh) { return mesh.space.empty() ? "LPS" : mesh.space; }
 
 }  // namespace
 
 TriangleMesh readSurfaceOrPoints(const std::filesystem::path& file, double unit_mm) {
   const MeshReadOptions options{unit_mm};
   options.validate();
-  if (looksLikeVtkSurface(file.string())) return vtkSurface(file, unit_mm);
+  if (looksLikeVtkSurface(file.string())) {
+    requireFile(file);
+    return readVtkSurface(file.string(), unit_mm);
+  }
   const std::string bytes = readBytes(file, std::uintmax_t{2} << 30), name = shown(file);
   return isPlyOfPoints(bytes, name) ? pointsFrom(bytes, name, unit_mm)
                                     : parseMesh(bytes, name, options);
@@ -67,15 +69,16 @@ Landmarks readLandmarks(const std::filesystem::path& file) {
 }
 
 std::string matchSpaces(const TriangleMesh& reference, TriangleMesh& test) {
-  if (reference.space.empty() || test.space.empty()) return "unknown in a file; assumed equal";
+  if (reference.space.empty() && test.space.empty()) return "unknown in both files; assumed equal";
   if (reference.space == test.space) return reference.space + ", according to both files";
+  const std::string expected = spaceOrLps(reference), found = spaceOrLps(test);
+  test.space = reference.space;
+  if (expected == found) return expected + ", according to one file and assumed of the other";
   for (Eigen::Vector3f& p : test.vertices_mm) {
     p.x() = -p.x();
     p.y() = -p.y();
   }
-  const std::string found = test.space;
-  test.space = reference.space;
-  return reference.space + "; the test was " + found + ", so its x and y were negated";
+  return expected + "; the test was " + found + ", so its x and y were negated";
 }
 
 }  // namespace softscope

@@ -23,8 +23,9 @@ struct Landmarks {
 /// other columns are ignored. Throws InputError: too few pairs, a missing coordinate.
 Landmarks readLandmarks(const std::filesystem::path& file);
 
-/// Transforms the test into the space of the reference if both headers name one and they differ
-/// (LPS and RAS: opposite signs of x and y). Returns a description of the change or assumption.
+/// Transforms the test into the space of the reference if they differ (LPS and RAS: opposite signs
+/// of x and y). If one header alone names a space, the other file is taken for LPS; if none does,
+/// they are equal. Returns a description of the change or assumption.
 std::string matchSpaces(const TriangleMesh& reference, TriangleMesh& test);
 
 }  // namespace softscope

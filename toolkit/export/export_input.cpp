@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/length_unit.h"
 #include "io/files/file_bytes.h"
 #include "io/text/message.h"
 #include "mesh/mesh_reader.h"
@@ -33,9 +34,12 @@ void readRemarks(std::string_view bytes, ModelSurface& surface) {
   if (surface.space != "LPS" && surface.space != "RAS") surface.space.clear();
 }
 
-ModelSurface pointsOf(std::string_view bytes, const std::string& name) {
+ModelSurface pointsOf(std::string_view bytes, const std::string& name, double unit_mm) {
   ModelFile file = parseModel(bytes, name);
   ModelSurface surface;
+  const double point_unit_mm = unitOfFileMm(unit_mm, bytes.substr(0, bytes.find("end_header")));
+  for (Eigen::Vector3f& p : file.model.positions_mm)
+    p = (p.cast<double>() * point_unit_mm).cast<float>();
   surface.vertices.points_mm = std::move(file.model.positions_mm);
   if (file.with_normals) surface.vertices.normals = std::move(file.model.normals);
   if (file.coloured) surface.vertices.colours = std::move(file.model.colours);
@@ -54,9 +58,9 @@ ModelSurface surfaceOf(TriangleMesh mesh) {
   return surface;
 }
 
-ModelSurface vtkSurfaceOf(const fs::path& file) {
+ModelSurface vtkSurfaceOf(const fs::path& file, double unit_mm) {
   requireFile(file);
-  TriangleMesh mesh = readVtkSurface(file.string());
+  TriangleMesh mesh = readVtkSurface(file.string(), unit_mm);
   if (mesh.triangles.empty())
     throw InputError(
         shown(file) +
@@ -106,15 +110,13 @@ ModelSurface readModelSurface(const fs::path& file, double unit_mm) {
   options.validate();
   ModelSurface surface;
   if (looksLikeVtkSurface(file.string())) {
-    surface = vtkSurfaceOf(file);
+    surface = vtkSurfaceOf(file, unit_mm);
   } else {
     const std::string bytes = readBytes(file, std::uintmax_t{2} << 30), name = shown(file);
-    surface =
-        isPlyOfPoints(bytes, name) ? pointsOf(bytes, name) : surfaceOf(parseMesh(bytes, name));
+    surface = isPlyOfPoints(bytes, name) ? pointsOf(bytes, name, unit_mm)
+                                         : surfaceOf(parseMesh(bytes, name, options));
     if (!surface.triangles.empty() && bytes.substr(0, 3) == "ply") readRemarks(bytes, surface);
   }
-  for (Eigen::Vector3f& p : surface.vertices.points_mm)
-    p = (p.cast<double>() * unit_mm).cast<float>();
   return surface;
 }
 

@@ -18,7 +18,7 @@ struct ExportRequest {
   DicomTexts dicom;          // of .dcm
   int frame = -1;            // frame of a run; -1: last model
   int every = 1;             // for a series: every n-th saved model
-  double input_unit_mm = 1;  // unit of the input
+  double input_unit_mm = 0;  // unit of the input; 0: as it states
   bool points = false;       // points instead of triangles
   bool overwrite = false;
 

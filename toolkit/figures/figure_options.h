@@ -19,7 +19,7 @@ namespace softscope {
 struct FigureOptions {
   std::vector<std::string> out;
   std::string window = "auto", at, landmarks, style = "ieee";
-  double width_mm = 0, dots_per_inch = 0, field_mm = 0, dot_reach_mm = 0.5, unit_mm = 1;
+  double width_mm = 0, dots_per_inch = 0, field_mm = 0, dot_reach_mm = 0.5, unit_mm = 0;
   bool neurological = false, force = false;
   VolumeArguments volume;
   RecordPaths paths;

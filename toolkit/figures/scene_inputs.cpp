@@ -167,7 +167,7 @@ Json SceneInputs::surfacesJson() const {
     list.push_back({{"path", surface_paths_[i]},
                     {"legend", surface.name},
                     {"space", assumptions_[i]},
-                    {"unit_mm", unit_mm_},
+                    {"unit_mm", surface.mesh.unit_mm},
                     {"vertices", surface.mesh.vertices_mm.size()},
                     {"triangles", surface.mesh.triangles.size()},
                     {"low_mm", vectorJson(box.min())},

@@ -1,6 +1,7 @@
 // toolkit/inspection/describe_mesh.cpp: facts about a surface or a point cloud.
 #include <algorithm>
 
+#include "core/length_unit.h"
 #include "io/files/file_bytes.h"
 #include "mesh/mesh_check.h"
 #include "mesh/mesh_reader.h"
@@ -50,8 +51,11 @@ FactSheet describePoints(const std::string& bytes, const std::string& file) {
   facts.add("each has", properties, "properties", points.properties);
   for (const std::string& comment : points.comments) facts.addLine("header says", comment);
   facts.addQuietly("comments", points.comments);
+  const double unit_mm =
+      unitOfFileMm(0, std::string_view(bytes).substr(0, bytes.find("end_header")));
+  facts.addQuietly("unit_mm", unit_mm);
   if (!points.box_mm.isEmpty())
-    addBox<Eigen::Vector3d>(points.box_mm.min(), points.box_mm.max(), facts);
+    addBox<Eigen::Vector3d>(unit_mm * points.box_mm.min(), unit_mm * points.box_mm.max(), facts);
   if (points.count == 0) facts.warn("no points");
   if (points.invalid > 0)
     facts.warn(std::to_string(points.invalid) +
@@ -72,6 +76,9 @@ FactSheet describeMesh(const std::string& file) {
   facts.add("triangles", "triangles", int(mesh.triangles.size()));
   facts.add("colours", mesh.colours.empty() ? "no" : "yes", "colours", !mesh.colours.empty());
   addBox<Eigen::Vector3f>(check.low_mm, check.high_mm, facts);
+  if (mesh.unit_mm != 1)
+    facts.addLine("unit", fixed(mesh.unit_mm, 0) + " mm in the file, as its header states");
+  facts.addQuietly("unit_mm", mesh.unit_mm);
   facts.add("space", mesh.space.empty() ? "not said" : mesh.space, "space", mesh.space);
   addSurface(check, facts);
   facts.addQuietly("likely_unit_mm", check.likely_unit_mm);

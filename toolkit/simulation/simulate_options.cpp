@@ -20,7 +20,8 @@ void describe(Visitor& v, SimulateOptions& o) {
   v("input_depth", o.input_depth, "true depth as depth/, which replaces stereo");
   v("truth_every", o.truth_every, atLeast(1), "frames between true meshes and depths");
   v("organ.mesh", o.organ, FreeText{"builtin or a mesh file (STL, PLY, OBJ, VTP)"}, "surface");
-  v("organ.unit_mm", o.organ_unit_mm, aboveUpTo(0, 1e6), "of a mesh file: 1000 for metres");
+  v("organ.unit_mm", o.organ_unit_mm, between(0, 1e6),
+    "of a mesh file: 1000 for metres; 0: as it states, else mm");
   v("texture.picture", o.texture, FreeText{"a photograph or empty"}, "empty: procedural tissue");
   describe(v, o.simulation);
 }

@@ -12,7 +12,7 @@ struct SimulateOptions {
   int frames = 40;
   int truth_every = 5;            // mesh and depth of every n-th and the last frame
   std::string organ = "builtin";  // or a mesh file
-  double organ_unit_mm = 1;       // of a mesh file
+  double organ_unit_mm = 0;       // of a mesh file; 0: as it states
   std::string texture = "";       // an image file; empty: procedural tissue
   std::string pictures = "png";   // or jpg, mp4
   int jpeg_quality = 95;          // of jpg

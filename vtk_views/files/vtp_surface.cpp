@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "core/guarded_read.h"
+#include "core/length_unit.h"
 #include "vtk_views/files/packed_bytes.h"
 #include "vtk_views/files/vtk_errors.h"
 
@@ -30,11 +31,15 @@ std::string endingOf(const std::string& path) {
   return ending;
 }
 
+/// Empty without such a field.
+std::string textFieldOf(vtkPolyData* data, const char* name) {
+  auto* array = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(name));
+  return array != nullptr && array->GetNumberOfValues() > 0 ? std::string(array->GetValue(0)) : "";
+}
+
 std::string spaceOf(vtkPolyData* data, const std::string& title) {
-  if (auto* array = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("SPACE"));
-      array != nullptr && array->GetNumberOfValues() > 0)
-    if (const std::string value = array->GetValue(0); value == "LPS" || value == "RAS")
-      return value;
+  if (const std::string value = textFieldOf(data, "SPACE"); value == "LPS" || value == "RAS")
+    return value;
   for (const char* space : {"LPS", "RAS"})
     if (title.find(std::string("SPACE=") + space) != std::string::npos) return space;
   return {};
@@ -76,6 +81,8 @@ TriangleMesh meshOf(vtkPolyData* data, const std::string& title, const std::stri
   addPoints(data, path, mesh);
   addTriangles(data->GetPolys(), path, mesh);
   mesh.space = spaceOf(data, title);
+  const std::string unit = textFieldOf(data, "UNIT");
+  mesh.unit_mm = unitOfFileMm(0, unit.empty() ? title : "unit " + unit);
   return mesh;
 }
 
@@ -98,6 +105,7 @@ std::string packMesh(const TriangleMesh& mesh) {
   packer.addAll(mesh.vertices_mm);
   packer.addAll(mesh.triangles);
   packer.addText(mesh.space);
+  packer.add(mesh.unit_mm);
   return std::move(packer.bytes);
 }
 
@@ -108,7 +116,7 @@ bool looksLikeVtkSurface(const std::string& path) {
   return ending == ".vtp" || ending == ".vtk";
 }
 
-TriangleMesh readVtkSurface(const std::string& path) {
+TriangleMesh readVtkSurface(const std::string& path, double unit_mm) {
   requireRegularFile(path);
   const std::string bytes = guardedRead(path, std::filesystem::file_size(path),
                                         [&] { return packMesh(readWithVtk(path)); });
@@ -117,6 +125,9 @@ TriangleMesh readVtkSurface(const std::string& path) {
   unpacker.takeAll(mesh.vertices_mm);
   unpacker.takeAll(mesh.triangles);
   unpacker.takeText(mesh.space);
+  unpacker.take(mesh.unit_mm);
+  if (unit_mm > 0) mesh.unit_mm = unit_mm;
+  for (Eigen::Vector3f& p : mesh.vertices_mm) p = (p.cast<double>() * mesh.unit_mm).cast<float>();
   return mesh;
 }
 

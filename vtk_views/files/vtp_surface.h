@@ -11,8 +11,9 @@ namespace softscope {
 bool looksLikeVtkSurface(const std::string& path);
 
 /// Reads polygons (split into triangles) or, without polygons, points; `space` from the
-/// field array SPACE, or from SPACE=LPS or SPACE=RAS in the title of a .vtk file. Throws
+/// field array SPACE, or from SPACE=LPS or SPACE=RAS in the title of a .vtk file; `unit_mm`: of
+/// the file, 0 for that of the field array UNIT, or of the title (unitOfFileMm()). Throws
 /// InputError for an unreadable or empty file, or a coordinate that is not finite.
-TriangleMesh readVtkSurface(const std::string& path);
+TriangleMesh readVtkSurface(const std::string& path, double unit_mm = 0);
 
 }  // namespace softscope
