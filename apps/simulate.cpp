@@ -19,7 +19,7 @@ const char* const kSimulateDetails =
     "groundtruth/ with mesh/ and depth/ of every 5th frame, trajectory.txt and tracks.csv (world "
     "=\n"
     "left camera at the first frame, mm), and simulation.json with every setting.\n"
-    "The same settings and seed give the same bytes on any number of threads.\n"
+    "The same settings and seed give the same bytes on any number of threads, except of videos.\n"
     "Keys of a scenario: frames, seed, truth_every, pictures, organ.*, texture.*, breathing.*,\n"
     "heartbeat.*, push.*, cut.*, scope.*, camera.*, instrument.*, smoke, event.*,\n"
     "light.*, sensor.*; data/scenario.toml lists all of them.\n"
