@@ -49,6 +49,21 @@ TEST(SurfacePicture, ShowsErrorsInTheirColoursOnTheirSide) {
   EXPECT_THROW(drawSurfaces(surfaces, colours, front, options), Error);
 }
 
+TEST(SurfacePicture, ASurfaceBesideErrorsIsGreyAlsoWhereItFacesTheViewer) {
+  TriangleMesh before = coronalSheet();
+  for (Eigen::Vector3f& p : before.vertices_mm) p = 0.5f * p - Eigen::Vector3f(0, 1, 0);
+  std::vector<SceneSurface> surfaces{{"reference", coronalSheet(), {175, 175, 175}, {}},
+                                     {"test", before, {255, 0, 0}, {}}};
+  surfaces[1].errors_mm.assign(before.vertices_mm.size(), 1.0);
+  SurfacePictureOptions options;
+  options.width_px = options.height_px = 100;  // of 50 mm
+  options.width_mm = 50;
+  const ViewPlane front = coronalView({0, 0, 0}, SceneFrame::kPatient, SideRule::kRadiological);
+  const Rgb8 shown = drawSurfaces(surfaces, {false, 2}, front, options).at(20, 50);
+  EXPECT_TRUE(shown.red == shown.green && shown.green == shown.blue);
+  EXPECT_NEAR(shown.red, 175, 15);  // white is the background
+}
+
 TEST(SurfacePicture, DotsCoverTheirSurfaceAndFewStaySmall) {
   SurfacePictureOptions options;
   options.width_px = options.height_px = 100;  // of 50 mm

@@ -115,8 +115,8 @@ void light(const SceneSurface& surface, const SurfaceRole& role, vtkProperty* lo
   }
   look->LightingOn();
   look->SetAmbient(0.3);
-  look->SetDiffuse(0.8);
-  look->SetSpecular(0.15);
+  look->SetDiffuse(role.neutral ? 0.55 : 0.8);  // grey where it faces the viewer, not white
+  look->SetSpecular(role.neutral ? 0 : 0.15);
   look->SetSpecularPower(20);
 }
 
