@@ -10,6 +10,7 @@
 #include "apps/work_progress.h"
 #include "core/error.h"
 #include "io/files/folder.h"
+#include "toolkit/benchmark/c3vd_benchmark.h"
 #include "toolkit/benchmark/depth_benchmark.h"
 #include "toolkit/benchmark/end_point_benchmark.h"
 #include "toolkit/benchmark/path_benchmark.h"
@@ -22,14 +23,13 @@ namespace softscope {
 namespace {
 
 const char* const kBenchmarkDetails =
-    "NAME: stir2026, stir, surgt, scared, servct or stereomis. DATA: a clip in its original "
-    "layout, or a\n"
-    "folder of clips. Each clip is run in its own process; a complete clip is not repeated, a "
-    "failed\n"
-    "clip is excluded and named. Prints the official table with its control (no motion, no "
-    "depth),\n"
-    "protocol, exclusions, coverage, 95 % intervals and latency; writes DIR/benchmark.json,\n"
-    "DIR/preds.json (for STIR's board) and DIR/clips/NAME with run and log (docs/datasets.md).";
+    "NAME: stir2026, stir, surgt, scared, servct, stereomis or c3vd. DATA: a clip in its original\n"
+    "layout, or a folder of clips. Each clip is run in its own process; a complete clip is not\n"
+    "repeated, a failed clip is excluded and named. Prints the official table with its control "
+    "(no\n"
+    "motion, no depth), protocol, exclusions, coverage, 95 % intervals and latency; writes\n"
+    "DIR/benchmark.json, DIR/preds.json (for STIR's board) and DIR/clips/NAME with run and log\n"
+    "(docs/datasets.md).";
 
 class BenchmarkCommand : public Command {
  public:
@@ -42,8 +42,8 @@ class BenchmarkCommand : public Command {
     return "softscope benchmark stir2026 STIR2026/val --out stir_val";
   }
   void declare(ArgumentList& arguments) override {
-    arguments.positional("NAME", benchmark_, "stir2026, stir, surgt, scared, servct or stereomis",
-                         true);
+    arguments.positional("NAME", benchmark_,
+                         "stir2026, stir, surgt, scared, servct, stereomis or c3vd", true);
     arguments.positional("DATA", data_, "a clip, or a folder of clips", true);
     arguments.option("--out", "DIR", out_, "folder for runs and results", true);
     arguments.option("--set", "KEY=VALUE", settings_,
@@ -87,16 +87,21 @@ std::optional<FactSheet> BenchmarkCommand::table(const BenchmarkOptions& options
   if (benchmark_ == "stereomis")
     return facts(benchmarkStereoMis(options, run_softscope, progress.callback()),
                  pathBenchmarkFacts);
+  if (benchmark_ == "c3vd") {
+    const C3vdBenchmarkResult result = benchmarkC3vd(options, run_softscope, progress.callback());
+    if (result.path.stopped) return std::nullopt;
+    return c3vdBenchmarkFacts(result);
+  }
   if (benchmark_ == "scared")
     return facts(benchmarkScared(options, run_softscope, progress.callback()), depthBenchmarkFacts);
   return facts(benchmarkStir(options, run_softscope, progress.callback()), stirBenchmarkFacts);
 }
 
 int BenchmarkCommand::run() {
-  const std::vector<std::string> known{"stir2026", "stir",   "surgt",
-                                       "scared",   "servct", "stereomis"};
+  const std::vector<std::string> known{"stir2026", "stir",      "surgt", "scared",
+                                       "servct",   "stereomis", "c3vd"};
   require(std::find(known.begin(), known.end(), benchmark_) != known.end(), "NAME", benchmark_,
-          "must be stir2026, stir, surgt, scared, servct or stereomis");
+          "must be stir2026, stir, surgt, scared, servct, stereomis or c3vd");
   require(jobs_ >= 1, "--jobs", jobs_, "must be 1 or more");
   if (isThere(out_) && !isFolder(out_))
     throw OptionError("--out " + out_ + ": is a file, but must be a new or existing folder");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/datasets/c3vd_files.h"
 #include "io/datasets/surgt_files.h"
 #include "tests/apps/run_softscope.h"
 
@@ -173,6 +174,56 @@ TEST_F(Benchmark, StereoMisJudgesEachRangeOfTheSplit) {
   const Outcome none = run({"benchmark", "stereomis", at("data"), "--out", at("b2"), "--quiet"});
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_THAT(none.err, HasSubstr("test_split.csv: line 2"));
+}
+
+TEST_F(Benchmark, C3vdJudgesThePathAndTheDepthOfHeldOutFrames) {
+  const std::vector<std::string> rigid{"--frames", "11",
+                                       "--set",    "breathing.amplitude_mm=0",
+                                       "--set",    "heartbeat.amplitude_mm=0",
+                                       "--set",    "push.amplitude_mm=0",
+                                       "--set",    "camera.amplitude_mm=10"};
+  std::vector<std::string> words = rigid;
+  words.insert(words.end(), {"--layout", "c3vd"});
+  simulate("data/cecum", words);
+  const auto json = benchmark("c3vd", "data");
+  ASSERT_TRUE(json.is_object());
+  EXPECT_EQ(json["clips"][0], "cecum");
+  EXPECT_EQ(json["held_out_frames"]["drawn"], 2);  // 1 and 9
+  EXPECT_EQ(json["ranges"][0]["frames"], 9);
+  EXPECT_EQ(json["coverage"], 1);
+  EXPECT_LT(json["path"]["ate_rmse_mm"].get<double>(),
+            json["control"]["ate_rmse_mm"].get<double>() / 3);
+  // The model is that of exact depths; the control lacks the motion of one frame.
+  EXPECT_LT(json["depth"]["median_mm"].get<double>(),
+            json["depth_control"]["median_mm"].get<double>() / 3);
+  EXPECT_GT(json["depth"]["coverage_percent"], 60);
+  EXPECT_EQ(json["depth_dense"]["coverage_percent"], 100);
+
+  // The same poses in the matrix order of other tools.
+  const auto path = readC3vdPath(at("data/cecum/pose.txt"));
+  std::ofstream by_rows(at("data/cecum/pose.txt"));
+  for (const Eigen::Isometry3d& pose : path) {
+    by_rows.precision(17);
+    for (int i = 0; i < 16; ++i) by_rows << pose.matrix()(i / 4, i % 4) << (i < 15 ? ' ' : '\n');
+  }
+  by_rows.close();
+  EXPECT_NEAR(benchmark("c3vd", "data")["path"]["ate_rmse_mm"].get<double>(),
+              json["path"]["ate_rmse_mm"].get<double>(), 1e-9);
+
+  // The same run, judged by `evaluate` with the truth of our own form.
+  simulate("own", rigid);
+  fs::copy(at("own/groundtruth"), at("data/cecum/groundtruth"), fs::copy_options::recursive);
+  const Outcome evaluated = run({"evaluate", at("b/clips/cecum/run"), "--reference",
+                                 at("data/cecum"), "--out", at("e"), "--json", "--quiet"});
+  ASSERT_EQ(evaluated.exit_code, 0) << evaluated.err;
+  const auto camera = evaluated.json()["camera"];  // poses on disk have 6 digits after the point
+  EXPECT_NEAR(json["path"]["ate_rmse_mm"].get<double>(), camera["ate"]["rmse_mm"].get<double>(),
+              1e-5);
+
+  fs::remove(at("data/cecum/0010_color.png"));
+  const Outcome none = run({"benchmark", "c3vd", at("data"), "--out", at("b"), "--quiet"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_THAT(none.err, HasSubstr("pose.txt: has 11 poses, but there are 10 images"));
 }
 
 TEST_F(Benchmark, StirFollowsTattoosToTheLastImage) {

@@ -1,7 +1,9 @@
-// tests/fuzz/dataset_fuzz.cpp: files of known data sets: STIR 2026, SurgT, SCARED, StereoMIS.
+// tests/fuzz/dataset_fuzz.cpp: files of known data sets: STIR 2026, SurgT, SCARED, StereoMIS,
+// C3VD.
 #include <cmath>
 
 #include "fuzz/fuzz_target.h"
+#include "io/datasets/c3vd_files.h"
 #include "io/datasets/stereomis_files.h"
 #include "io/datasets/stir_files.h"
 #include "io/datasets/surgt_files.h"
@@ -47,6 +49,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const FrameRange& range : *found) mustHold(range.begin >= 0 && range.end > range.begin);
   if (const auto found = answerOf([&] { return parseStereoMisPath(text, "fuzz"); }))
     mustHold(!found->empty() && found->begin()->first >= 0);
+  if (const auto found = answerOf([&] { return parseC3vdPath(text, "fuzz"); })) {
+    mustHold(!found->empty());
+    for (const Eigen::Isometry3d& pose : *found)
+      mustHold(pose.matrix().allFinite() && pose.linear().isUnitary(1e-6));
+  }
   if (const auto found = answerOf([&] { return parsePointRaster(text, "fuzz"); }))
     for (const Eigen::Vector3f& p : found->values) mustHold(p.allFinite() || std::isnan(p.z()));
   return 0;

@@ -7,6 +7,7 @@
 
 #include "io/calibrations/calibration_reader.h"
 #include "io/calibrations/shipped_calibrations.h"
+#include "io/datasets/c3vd_files.h"
 #include "io/datasets/stereomis_files.h"
 #include "io/documents/npy_file.h"
 #include "io/geometry/depth_files.h"
@@ -125,6 +126,7 @@ TEST(ShippedFolders, EachIsRecognisedByItsNames) {
   clip = recogniseDataset(folder / "colon");
   ASSERT_TRUE(clip);
   EXPECT_EQ(clip->form, "C3VD");
+  EXPECT_EQ(clip->benchmark, "c3vd");
   EXPECT_EQ(clip->paths.depth_files.size(), 1u);
   touch(folder / "colon/0001_color.png");
   expectError<InputError>([&] { recogniseDataset(folder / "colon"); },
@@ -178,6 +180,31 @@ TEST(StereoMisFiles, PathAndSplitComeBackOrAreRefused) {
   expectError<InputError>([] { parseStereoMisSplit("start,end\n", "s.csv"); }, {"no range"});
   expectError<InputError>([] { parseStereoMisSplit("10,5\n", "s.csv"); }, {"line 1", "no frame"});
   expectError<InputError>([] { parseStereoMisSplit("1,2,3\n", "s.csv"); }, {"line 1"});
+}
+
+TEST(C3vdFiles, PosesComeBackInEitherOrderOfTheMatrixOrAreRefused) {
+  const std::string first = "1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1\n";
+  // x to y, y to z, then 1, 2, 3 mm; column by column and row by row.
+  const std::string columns = "0,1,0,0,0,0,1,0,1,0,0,0,1,2,3,1\n";
+  const std::string rows = "0 0 1 1 1 0 0 2 0 1 0 3 0 0 0 1\n";
+  for (const std::string& text : {first + columns, "\n" + first + rows}) {
+    const auto path = parseC3vdPath(text, "pose.txt");
+    ASSERT_EQ(path.size(), 2u);
+    EXPECT_TRUE(path[0].matrix().isIdentity());
+    EXPECT_TRUE((path[1] * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(1, 3, 3)));
+    EXPECT_EQ(c3vdPathText(path), first + columns);
+  }
+  const auto refuses = [](const std::string& text, const std::vector<std::string>& parts) {
+    expectError<InputError>([&] { parseC3vdPath(text, "pose.txt"); }, parts);
+  };
+  refuses("", {"pose.txt", "no pose"});
+  refuses(first + "1,0,0,0\n", {"pose.txt: line 2", "4 words", "16 numbers"});
+  refuses(first + "0,1,0,0,-1,0,0,0,0,0,1,0,1,2,x,1\n", {"line 2", "x"});
+  refuses(first + "0,1,0,0,-1,0,0,0,0,0,1,0,1,2,nan,1\n", {"line 2", "nan"});
+  refuses(columns + rows, {"line 2", "another order"});
+  refuses("0,1,0,0,-1,0,0,0,0,0,1,0,1,2,3,2\n", {"line 1", "0 0 0 1"});
+  refuses("0,2,0,0,-1,0,0,0,0,0,1,0,1,2,3,1\n", {"line 1", "no rotation"});
+  refuses("-1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1\n", {"line 1", "no rotation"});
 }
 
 TEST(DepthInMetres, NumpyArraysAreReadEverywhere) {

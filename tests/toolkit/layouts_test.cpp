@@ -115,7 +115,7 @@ TEST_F(Layouts, ShippedFormsAreReconstructedAsOurOwn) {
       {"servct", "`softscope benchmark servct`, not by `evaluate`"},
       {"stereomis", "`softscope benchmark stereomis`, not by `evaluate`"},
       {"stir", "`softscope benchmark stir`, not by `evaluate`"},
-      {"c3vd", "pose.txt: not read by softscope"}};
+      {"c3vd", "`softscope benchmark c3vd`, not by `evaluate`"}};
   for (const auto& [layout, form] : forms) {
     SCOPED_TRACE(layout);
     simulate(layout, layout, {"frames=2"});

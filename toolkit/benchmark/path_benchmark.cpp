@@ -8,14 +8,11 @@
 #include "io/text/message.h"
 #include "stereo/rectification/rectifier.h"
 #include "toolkit/record/json_text.h"
-#include "toolkit/run/run_reader.h"
 
 namespace softscope {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kLeastPoses = 2;
 
 bool isStereoMisSequence(const fs::path& folder) {
   return isFile(folder / "StereoCalibration.ini") && isFile(folder / "groundtruth.txt");
@@ -27,35 +24,13 @@ struct PathClip {
   fs::path run;
 };
 
-void judgePath(const PathClip& clip, PathClipResult* result) {
+void judgeRange(const PathClip& clip, PathClipResult* result) {
   const auto truth = readStereoMisPath(clip.sequence.folder / "groundtruth.txt");
   // True poses are those of the raw camera, poses of a run those of the rectified camera.
   const StereoCalibration calibration =
       SequenceReader(findSequence(clip.sequence.folder), {}).calibration();
   const Eigen::Isometry3d rectified_from_raw(Rectifier(calibration).rig().rectified_from_raw_left);
-  const JudgedRun run = openJudgedRun(clip.run);
-  std::vector<Eigen::Isometry3d> expected, found;
-  std::vector<int> moments;
-  for (std::size_t i = 0; i < run.frames.size(); ++i) {
-    const auto pose = truth.find(run.frames[i]);
-    if (pose == truth.end()) continue;
-    ++result->frames;
-    if (!run.isPlaced(run.frames[i])) {
-      ++result->lost;
-      continue;
-    }
-    expected.push_back(pose->second);
-    found.push_back(run.trajectory[i].world_from_left * rectified_from_raw);
-    moments.push_back(run.frames[i]);
-  }
-  if (expected.size() < kLeastPoses)
-    throw InputError(say("groundtruth.txt has ", result->frames, " poses of the ",
-                         run.frames.size(), " frames of the run, ", result->lost,
-                         " of them lost; two or more are needed"));
-  result->found = trajectoryErrors(expected, found, moments);
-  result->control = trajectoryErrors(
-      expected, std::vector<Eigen::Isometry3d>(expected.size(), Eigen::Isometry3d::Identity()),
-      moments);
+  judgePath(openJudgedRun(clip.run), truth, rectified_from_raw, result);
   const std::vector<double> latency_ms = readLatencies(clip.run);
   if (!latency_ms.empty()) result->latency_ms.assign(latency_ms.begin() + 1, latency_ms.end());
 }
@@ -67,6 +42,7 @@ PathBenchmarkResult benchmarkStereoMis(const BenchmarkOptions& options,
                                        const Progress& progress) {
   PathBenchmarkResult result;
   result.title = "StereoMIS";
+  result.protocol = "each range of test_split.csv (whole sequence without one) separately";
   std::vector<PathClip> clips;
   std::vector<BenchmarkRun> runs;
   for (const BenchmarkClip& sequence :
@@ -101,7 +77,7 @@ PathBenchmarkResult benchmarkStereoMis(const BenchmarkOptions& options,
     PathClipResult& judged = result.clips[i];
     if (judged.excluded.empty()) judged.excluded = runs[i].failure;
     if (judged.excluded.empty())
-      excludeOnError(&judged.excluded, [&] { judgePath(clips[i], &judged); });
+      excludeOnError(&judged.excluded, [&] { judgeRange(clips[i], &judged); });
   }
   requireOneJudged(result.clips, options.data);
   writeFile(options.out / "benchmark.json", jsonText(pathBenchmarkFacts(result).json()), true);

@@ -1,12 +1,15 @@
 #include "toolkit/benchmark/path_scores.h"
 
 #include <cmath>
-#include <map>
 
+#include "core/error.h"
+#include "io/text/message.h"
 #include "toolkit/record/statistics_json.h"
 
 namespace softscope {
 namespace {
+
+constexpr std::size_t kLeastPoses = 2;
 
 struct PathRow {
   std::vector<double> ate_mm, rpe_mm, rpe_deg, ate_scaled_mm;
@@ -35,6 +38,32 @@ void addPathRow(const std::string& label, const std::string& key, const PathRow&
 }
 
 }  // namespace
+
+void judgePath(const JudgedRun& run, const std::map<int, Eigen::Isometry3d>& world_from_raw_left,
+               const Eigen::Isometry3d& rectified_from_raw, PathClipResult* result) {
+  std::vector<Eigen::Isometry3d> expected, found;
+  std::vector<int> moments;
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const auto pose = world_from_raw_left.find(run.frames[i]);
+    if (pose == world_from_raw_left.end()) continue;
+    ++result->frames;
+    if (!run.isPlaced(run.frames[i])) {
+      ++result->lost;
+      continue;
+    }
+    expected.push_back(pose->second);
+    found.push_back(run.trajectory[i].world_from_left * rectified_from_raw);
+    moments.push_back(run.frames[i]);
+  }
+  if (expected.size() < kLeastPoses)
+    throw InputError(say("there are true poses of ", result->frames, " of the ", run.frames.size(),
+                         " frames of the run, ", result->lost,
+                         " of them lost; two or more are needed"));
+  result->found = trajectoryErrors(expected, found, moments);
+  result->control = trajectoryErrors(
+      expected, std::vector<Eigen::Isometry3d>(expected.size(), Eigen::Isometry3d::Identity()),
+      moments);
+}
 
 FactSheet pathBenchmarkFacts(const PathBenchmarkResult& result) {
   PathRow found, control;
@@ -67,9 +96,9 @@ FactSheet pathBenchmarkFacts(const PathBenchmarkResult& result) {
   addClips(judged, excluded, &facts);
   facts.add(
       "protocol", "protocol",
-      std::string("each range of test_split.csv (whole sequence without one) separately; ATE after "
-                  "rigid alignment of all positions, SE(3), no scale; RPE from frame to frame; "
-                  "means over ranges; frames reported as lost are excluded and counted"));
+      result.protocol +
+          "; ATE after rigid alignment of all positions, SE(3), no scale; RPE from frame to frame; "
+          "means over ranges; frames reported as lost are excluded and counted");
   addPathRow("path", "path", found, &facts);
   addPathRow("nothing moves", "control", control, &facts);
   const double coverage = frames == 0 ? Statistics::kNone : 1 - static_cast<double>(lost) / frames;

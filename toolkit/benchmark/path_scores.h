@@ -1,12 +1,15 @@
-// toolkit/benchmark/path_scores.h: table of the trajectory benchmark (StereoMIS).
+// toolkit/benchmark/path_scores.h: scores and table of the trajectory benchmarks.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "eval/motion/trajectory_errors.h"
 #include "toolkit/benchmark/benchmark_runs.h"
 #include "toolkit/record/fact_sheet.h"
+#include "toolkit/run/run_reader.h"
 
 namespace softscope {
 
@@ -23,9 +26,15 @@ struct PathClipResult {
 
 struct PathBenchmarkResult {
   std::string title;
+  std::string protocol;  // ranges and poses of the data set
   std::vector<PathClipResult> clips;
   bool stopped = false;
 };
+
+/// Compares the poses of a run with true ones of the raw left camera, by frame. Throws InputError
+/// for fewer than two frames with both.
+void judgePath(const JudgedRun& run, const std::map<int, Eigen::Isometry3d>& world_from_raw_left,
+               const Eigen::Isometry3d& rectified_from_raw, PathClipResult* result);
 
 /// ATE and RPE, SE(3) and Sim(3), means over ranges; with control, protocol, exclusions, coverage,
 /// intervals, latency.

@@ -6,6 +6,7 @@
 
 #include "io/calibrations/calibration_writer.h"
 #include "io/calibrations/shipped_calibrations.h"
+#include "io/datasets/c3vd_files.h"
 #include "io/geometry/depth_files.h"
 #include "io/images/image_writer.h"
 #include "io/images/video_writer.h"
@@ -18,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kC3vdStepMm = 100.0 / 65535;
 constexpr long long kFirstStampS = 1700000000;  // time stamp in the names of D4D
 constexpr double kTattooMm = 1;                 // radius of the infrared marks of STIR
 
@@ -205,19 +205,17 @@ class C3vdLayout : public DatasetLayout {
     folder_.make(digits(index, 4) + "_depth.tiff", [&](const fs::path& file) {
       writeDepthTiff(file, frame.depth_mm, kC3vdStepMm, false);
     });
-    const Eigen::Matrix4d pose = frame.pose.world_from_left.matrix();
-    for (int i = 0; i < 16; ++i)
-      poses_ += say(i == 0 ? "" : ",", exactText(pose(i / 4, i % 4)), i == 15 ? "\n" : "");
+    poses_.push_back(frame.pose.world_from_left);
   }
   void finish(const Simulator& simulator) override {
-    folder_.put("pose.txt", poses_);
+    folder_.put("pose.txt", c3vdPathText(poses_));
     folder_.put("calibration.yaml", calibrationYaml(simulator.calibration()));
     folder_.keep();
   }
 
  private:
   LayoutFolder folder_;
-  std::string poses_;
+  std::vector<Eigen::Isometry3d> poses_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "io/calibrations/calibration_reader.h"
+#include "io/datasets/c3vd_files.h"
 #include "io/files/folder.h"
 #include "io/sequences/picture_source.h"
 #include "io/text/message.h"
@@ -16,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kSameMomentS = 0.005;  // a sixth of the frame time
-constexpr double kC3vdStepMm = 100.0 / 65535;
 
 std::vector<fs::path> imagesIn(const fs::path& folder) {
   return filesIn(folder, {kPictureKinds.begin(), kPictureKinds.end()});
@@ -141,6 +141,7 @@ DatasetClip hamlynMirror(const fs::path& folder) {
 DatasetClip c3vd(const fs::path& folder) {
   DatasetClip clip;
   clip.form = "C3VD";
+  clip.benchmark = "c3vd";
   clip.paths.left = clip.paths.depth = clip.paths.calibration = folder;
   clip.paths.depth_unit_mm = kC3vdStepMm;
   clip.paths.rectified = true;
