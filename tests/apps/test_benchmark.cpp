@@ -2,6 +2,7 @@
 // clips.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -19,10 +20,11 @@ using testing::StartsWith;
 class Benchmark : public InFolder {
  protected:
   void simulate(const std::string& out, const std::vector<std::string>& more) const {
-    std::vector<std::string> words{
-        "simulate", "--out", at(out), "--size", "144x108", "--set", "organ.cells_per_side=30",
-        "--quiet"};
+    std::vector<std::string> words{"simulate", "--out", at(out), "--set", "organ.cells_per_side=30",
+                                   "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
+    if (std::find(more.begin(), more.end(), "--size") == more.end())
+      words.insert(words.end(), {"--size", "144x108"});
     const Outcome outcome = run(words);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   }
@@ -227,7 +229,8 @@ TEST_F(Benchmark, C3vdJudgesThePathAndTheDepthOfHeldOutFrames) {
 }
 
 TEST_F(Benchmark, StirFollowsTattoosToTheLastImage) {
-  simulate("data/p1", {"--layout", "stir", "--frames", "6"});
+  simulate("data/p1", {"--layout", "stir", "--frames", "6", "--size", "240x180", "--set",
+                       "camera.amplitude_mm=10"});
   const auto json = benchmark("stir", "data");
   ASSERT_TRUE(json.is_object());
   EXPECT_EQ(json["clips"][0], "p1_left_seq01");
@@ -235,9 +238,15 @@ TEST_F(Benchmark, StirFollowsTattoosToTheLastImage) {
   EXPECT_LT(json["scores_2d"]["median_px"], json["control_2d"]["median_px"]);
   EXPECT_LT(json["scores_2d"]["median_px"], 1.5);  // marks are bounded by whole pixels
   EXPECT_GT(json["coverage"], 0.8);
+  // One pixel of disparity, the step of the truth, is 3 mm.
+  EXPECT_EQ(json["without_3d"].size(), 0u);
+  EXPECT_GT(json["scores_3d"]["points"], 5);
+  EXPECT_LE(json["scores_3d"]["points"], json["scores_2d"]["points"]);
+  EXPECT_LT(json["scores_3d"]["median_mm"], 3);
+  EXPECT_GT(json["scores_3d"]["delta_avg"], json["control_3d"]["delta_avg"]);
 
   // The same film and points in our own form give the same paths.
-  simulate("own", {"--set", "pictures=mp4", "--frames", "1"});
+  simulate("own", {"--set", "pictures=mp4", "--frames", "1", "--size", "240x180"});
   for (const char* side : {"left", "right"})
     for (const auto& film : fs::directory_iterator(at("data/p1/") + side + "/seq01/frames"))
       fs::copy_file(film.path(), at("own/") + side + ".mp4", fs::copy_options::overwrite_existing);
@@ -247,6 +256,17 @@ TEST_F(Benchmark, StirFollowsTattoosToTheLastImage) {
           .exit_code,
       0);
   EXPECT_EQ(textOf(at("run/tracks.csv")), textOf(home + "run/tracks.csv"));
+
+  // Without tattoos in the right image there is no 3-D score; the others remain.
+  const fs::path right = at("data/p1/right/seq01/segmentation/icgendseg.png");
+  fs::resize_file(right, 100);
+  const auto damaged = benchmark("stir", "data");
+  EXPECT_EQ(damaged["scores_2d"], json["scores_2d"]);
+  EXPECT_FALSE(damaged.contains("scores_3d"));
+  EXPECT_THAT(damaged["without_3d"][0]["why"], HasSubstr("icgendseg.png"));
+  fs::remove(at("data/p1/left/seq01/0ms_icgstart.png"));
+  EXPECT_THAT(benchmark("stir", "data")["without_3d"][0]["why"],
+              HasSubstr("_icgstart.png: is miss"));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "toolkit/benchmark/end_point_benchmark.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.h"
 #include "eval/motion/tracking_scores.h"
@@ -12,25 +11,46 @@
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
 #include "stereo/rectification/rectifier.h"
+#include "toolkit/benchmark/tattoo_marks.h"
 #include "toolkit/record/json_text.h"
-#include "toolkit/record/statistics_json.h"
 
 namespace softscope {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// left…/seqNN; the right view has the same parts.
 bool isStirSequence(const fs::path& folder) {
-  return isFolder(folder / "frames") && isFile(folder / "segmentation" / "icgstartseg.png");
+  const std::string side = fs::absolute(folder).lexically_normal().parent_path().filename();
+  return side.find("left") != std::string::npos && isFolder(folder / "frames") &&
+         isFile(folder / "segmentation" / "icgstartseg.png");
 }
 
 std::vector<Eigen::Vector2d> marksIn(const fs::path& file) {
-  const std::vector<Eigen::Vector2d> centres = markCentres(readMask(file));
+  std::vector<Eigen::Vector2d> centres;
+  for (const TattooMark& mark : tattooMarks(readMask(file))) centres.push_back(mark.centre());
   if (centres.empty())
     throw InputError(shown(file) +
                      ": has no mark, but tattoos are expected. Is it the "
                      "segmentation?");
   return centres;
+}
+
+/// One view at the start or the end.
+TattooView tattooView(const fs::path& sequence, const std::string& moment) {
+  TattooView view;
+  view.segmentation = readMask(sequence / "segmentation" / ("icg" + moment + "seg.png"));
+  const std::string ending = "_icg" + moment + ".png";
+  for (const fs::path& file : filesIn(sequence, {".png"})) {
+    const std::string name = file.filename().string();
+    if (name.size() < ending.size() ||
+        name.compare(name.size() - ending.size(), ending.size(), ending) != 0)
+      continue;
+    view.infrared = readGrayImage(file);
+    return view;
+  }
+  throw InputError(shown(sequence / ("..." + ending)) + ": is missing, but STIR has an infrared " +
+                   "image of each view. Download it again.");
 }
 
 Eigen::Vector3d inImage(const Eigen::Vector2d& pixel) { return {pixel.x(), pixel.y(), 0}; }
@@ -59,20 +79,28 @@ class EndPointClip {
     const StereoCalibration calibration = reader.calibration();
     const Eigen::Matrix3d raw_from_rectified =
         Rectifier(calibration).rig().rectified_from_raw_left.transpose();
+    excludeOnError(&result.without_3d, [&] { readPositions(calibration); });
     const RunTracks tracks = readRunTracks(home_ / "run", starts_.size(), reader.totalCount());
-    std::vector<Eigen::Vector3d> found, still, truth;
+    std::vector<Eigen::Vector3d> found, still, truth, found_mm, still_mm;
     for (const Eigen::Vector2d& end : ends_) truth.push_back(inImage(end));
     for (std::size_t i = 0; i < starts_.size(); ++i) {
       still.push_back(inImage(starts_[i]));
       found.push_back(still.back());
       const Eigen::Vector3d last = raw_from_rectified * tracks.positions_mm.back()[i];
-      if (!last.allFinite() || !(last.z() > 0)) continue;
-      found.back() = inImage(projectPoint(calibration.left.pinhole, last));
-      ++result.measured;
+      const bool is_measured = last.allFinite() && last.z() > 0;
+      if (is_measured) found.back() = inImage(projectPoint(calibration.left.pinhole, last));
+      result.measured += is_measured;
+      if (!result.without_3d.empty() || !starts_mm_[i].allFinite()) continue;
+      still_mm.push_back(starts_mm_[i]);
+      found_mm.push_back(is_measured ? last : starts_mm_[i]);
     }
     result.points = static_cast<int>(starts_.size());
     result.found_px = endPointDistances(found, truth);
     result.control_px = endPointDistances(still, truth);
+    if (result.without_3d.empty()) {
+      result.found_mm = endPointDistances(found_mm, ends_mm_);
+      result.control_mm = endPointDistances(still_mm, ends_mm_);
+    }
     const std::vector<double> latency_ms = readLatencies(home_ / "run");
     if (!latency_ms.empty()) result.latency_ms.assign(latency_ms.begin() + 1, latency_ms.end());
   }
@@ -80,57 +108,29 @@ class EndPointClip {
   EndPointClipResult result;
 
  private:
+  /// Throws InputError without a pair of tattoos at the start or the end.
+  void readPositions(const StereoCalibration& calibration) {
+    const fs::path right = findSequence(clip_.folder).right.parent_path().parent_path();
+    const auto positions = [&](const std::string& moment) {
+      return tattooPositions(tattooView(clip_.folder, moment), tattooView(right, moment),
+                             calibration);
+    };
+    starts_mm_ = positions("start");
+    ends_mm_ = positions("end");
+    const auto unknown = [](const Eigen::Vector3d& position) { return !position.allFinite(); };
+    ends_mm_.erase(std::remove_if(ends_mm_.begin(), ends_mm_.end(), unknown), ends_mm_.end());
+    if (ends_mm_.empty() || std::all_of(starts_mm_.begin(), starts_mm_.end(), unknown))
+      throw InputError(shown(right / "segmentation") +
+                       ": no tattoo of the left view has a partner at the start and at the end");
+  }
+
   BenchmarkClip clip_;
   fs::path home_;
   std::vector<Eigen::Vector2d> starts_, ends_;
+  std::vector<Eigen::Vector3d> starts_mm_, ends_mm_;  // NaN: start without a partner
 };
 
-void addEndPoints(const std::string& label, const std::string& key,
-                  const std::vector<double>& distances_px, FactSheet* facts) {
-  const EndPointScores scores = endPointScores(distances_px, endPointThresholdsPx());
-  facts->addLine(label, "delta_avg " + fixed(scores.average_accuracy, 4) + "  mean " +
-                            fixed(scores.distance.mean, 2) + "  median " +
-                            fixed(scores.distance.median, 2) + " px");
-  facts->addQuietly(key, {{"delta_avg", orNull(scores.average_accuracy)},
-                          {"accuracy_at", scores.accuracy_at},
-                          {"mean_px", orNull(scores.distance.mean)},
-                          {"median_px", orNull(scores.distance.median)},
-                          {"points", scores.distance.count}});
-}
-
-double deltaOf(const std::vector<double>& distances_px) {
-  return endPointScores(distances_px, endPointThresholdsPx()).average_accuracy;
-}
-
 }  // namespace
-
-std::vector<Eigen::Vector2d> markCentres(const Mask& marks) {
-  Mask left = marks;
-  std::vector<Eigen::Vector2d> centres;
-  for (int v = 0; v < left.height_px; ++v)
-    for (int u = 0; u < left.width_px; ++u) {
-      if (left.at(u, v) == 0) continue;
-      int u_min = u, u_max = u, v_max = v;
-      std::vector<Eigen::Vector2i> front{{u, v}};
-      left.at(u, v) = 0;
-      while (!front.empty()) {
-        const Eigen::Vector2i at = front.back();
-        front.pop_back();
-        u_min = std::min(u_min, at.x());
-        u_max = std::max(u_max, at.x());
-        v_max = std::max(v_max, at.y());
-        for (int dv = -1; dv <= 1; ++dv)
-          for (int du = -1; du <= 1; ++du) {
-            const Eigen::Vector2i next(at.x() + du, at.y() + dv);
-            if (!left.contains(next.x(), next.y()) || left.at(next.x(), next.y()) == 0) continue;
-            left.at(next.x(), next.y()) = 0;
-            front.push_back(next);
-          }
-      }
-      centres.emplace_back((u_min + u_max) / 2.0, (v + v_max) / 2.0);
-    }
-  return centres;
-}
 
 EndPointBenchmarkResult benchmarkStirEnds(const BenchmarkOptions& options,
                                           const RunSoftscope& run_softscope,
@@ -158,47 +158,6 @@ EndPointBenchmarkResult benchmarkStirEnds(const BenchmarkOptions& options,
   requireOneJudged(result.clips, options.data);
   writeFile(options.out / "benchmark.json", jsonText(endPointFacts(result).json()), true);
   return result;
-}
-
-FactSheet endPointFacts(const EndPointBenchmarkResult& result) {
-  std::vector<std::string> judged;
-  std::vector<ExcludedClip> excluded;
-  std::vector<double> found_px, control_px, latency_ms, delta, gain;
-  int points = 0, measured = 0;
-  for (const EndPointClipResult& clip : result.clips) {
-    if (!clip.excluded.empty()) {
-      excluded.push_back({clip.name, clip.excluded});
-      continue;
-    }
-    judged.push_back(clip.name);
-    found_px.insert(found_px.end(), clip.found_px.begin(), clip.found_px.end());
-    control_px.insert(control_px.end(), clip.control_px.begin(), clip.control_px.end());
-    latency_ms.insert(latency_ms.end(), clip.latency_ms.begin(), clip.latency_ms.end());
-    delta.push_back(deltaOf(clip.found_px));
-    gain.push_back(delta.back() - deltaOf(clip.control_px));
-    points += clip.points;
-    measured += clip.measured;
-  }
-  FactSheet facts("STIR (to 2025)");
-  addClips(judged, excluded, &facts);
-  facts.add("protocol", "protocol",
-            std::string("centres of the bounding boxes of the tattoos, all sequences in one pool; "
-                        "distance of the last position from the nearest true end point in the left "
-                        "image, <= 4, 8, 16, 32, 64 px; no 3-D score"));
-  addEndPoints("2-D", "scores_2d", found_px, &facts);
-  addEndPoints("2-D, nothing moves", "control_2d", control_px, &facts);
-  const double coverage = points == 0 ? std::nan("") : static_cast<double>(measured) / points;
-  facts.add("coverage",
-            fixed(100 * coverage, 1) +
-                " % of the points have an end point; the others keep their first position",
-            "coverage", orNull(coverage));
-  addClusterMean("delta_avg per sequence", "clip_delta_avg_2d", "", "sequences", delta, &facts);
-  addClusterMean("over the control", "clip_delta_avg_2d_over_control", "", "sequences", gain,
-                 &facts);
-  if (judged.size() < 3)
-    facts.addLine("intervals", "none: a bootstrap over sequences needs three or more");
-  addLatency(latency_ms, "per frame, without the first of each run", &facts);
-  return facts;
 }
 
 }  // namespace softscope

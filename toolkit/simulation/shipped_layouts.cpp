@@ -136,7 +136,7 @@ class StirEndsLayout : public DatasetLayout {
       }
     videos_[0].add(pair.left);
     videos_[1].add(pair.right);
-    end_ = marks(frame, simulator.rig());
+    end_ = tattooImages(frame, simulator.rig());
     if (index == 0) start_ = end_;
     end_ms_ = static_cast<int>(std::lround(1000 * frame.pose.time_s));
   }
@@ -148,32 +148,60 @@ class StirEndsLayout : public DatasetLayout {
         fs::rename(folder_ / (frames + "clip.mp4"), file);
       });
     }
-    folder_.make("left/seq01/segmentation/icgstartseg.png",
-                 [&](const fs::path& file) { writePng(file, start_, false); });
-    folder_.make("left/seq01/segmentation/icgendseg.png",
-                 [&](const fs::path& file) { writePng(file, end_, false); });
+    for (const int side : {0, 1}) {
+      putTattoos(side, "0ms_icgstart", "icgstartseg", start_);
+      putTattoos(side, say(end_ms_, "ms_icgend"), "icgendseg", end_);
+    }
     folder_.put("calib.json", firstStirCalibrationJson(simulator.calibration()));
     folder_.keep();
   }
 
  private:
-  /// Discs on the tissue at the visible tracked points.
-  static GrayImage marks(const SimulatedFrame& frame, const RectifiedRig& rig) {
-    GrayImage image(rig.left.width_px, rig.left.height_px, 0);
+  /// Of both views.
+  struct TattooImages {
+    GrayImage segmentation[2], infrared[2];
+  };
+
+  /// Discs at the visible tracked points, bright on dark tissue in infrared light.
+  static TattooImages tattooImages(const SimulatedFrame& frame, const RectifiedRig& rig) {
+    TattooImages images;
+    for (const int side : {0, 1}) {
+      images.segmentation[side] = GrayImage(rig.left.width_px, rig.left.height_px, 0);
+      images.infrared[side] = toGray(side == 0 ? frame.pictures.left : frame.pictures.right);
+      for (std::uint8_t& value : images.infrared[side].values) value /= 2;
+    }
     for (const VisiblePoint& point : visiblePoints(frame, rig)) {
       const double radius_px = rig.left.fx_px * kTattooMm / point.depth_mm;
-      if (!point.in_left) continue;
-      for (int v = 0; v < image.height_px; ++v)
-        for (int u = 0; u < image.width_px; ++u)
-          if ((Eigen::Vector2d(u, v) - point.left_px).norm() <= radius_px) image.at(u, v) = 255;
+      const Eigen::Vector2d right_px = point.left_px - Eigen::Vector2d(point.disparity_px, 0);
+      if (point.in_left) addTattoo(point.left_px, radius_px, 0, &images);
+      if (point.in_right) addTattoo(right_px, radius_px, 1, &images);
     }
-    return image;
+    return images;
+  }
+  static void addTattoo(const Eigen::Vector2d& centre_px, double radius_px, int side,
+                        TattooImages* images) {
+    GrayImage& segmentation = images->segmentation[side];
+    for (int v = 0; v < segmentation.height_px; ++v)
+      for (int u = 0; u < segmentation.width_px; ++u) {
+        if ((Eigen::Vector2d(u, v) - centre_px).norm() > radius_px) continue;
+        segmentation.at(u, v) = 255;
+        images->infrared[side].at(u, v) |= 128;  // halved before
+      }
+  }
+
+  void putTattoos(int side, const std::string& infrared, const std::string& segmentation,
+                  const TattooImages& images) {
+    const std::string home = say(side == 0 ? "left" : "right", "/seq01/");
+    folder_.make(home + infrared + ".png",
+                 [&](const fs::path& file) { writePng(file, images.infrared[side], false); });
+    folder_.make(home + "segmentation/" + segmentation + ".png",
+                 [&](const fs::path& file) { writePng(file, images.segmentation[side], false); });
   }
 
   LayoutFolder folder_;
   double rate_;
   std::vector<VideoWriter> videos_;
-  GrayImage start_, end_;
+  TattooImages start_, end_;
   int end_ms_ = 0;
 };
 
