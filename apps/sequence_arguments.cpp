@@ -32,7 +32,10 @@ SequencePaths SequenceArguments::paths(const std::string& command, bool calibrat
     paths.right = right;
   }
   if (!calibration.empty()) paths.calibration = calibration;
-  if (!mask.empty()) paths.mask = mask;
+  if (!mask.empty()) {
+    paths.mask = mask;
+    paths.tissue_masks = false;
+  }
   return paths;
 }
 

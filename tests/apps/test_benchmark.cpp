@@ -234,6 +234,7 @@ TEST_F(Benchmark, StirFollowsTattoosToTheLastImage) {
   const auto json = benchmark("stir", "data");
   ASSERT_TRUE(json.is_object());
   EXPECT_EQ(json["clips"][0], "p1_left_seq01");
+  EXPECT_EQ(json["excluded"].size(), 0u) << "the right view is no clip";
   EXPECT_GT(json["scores_2d"]["points"], 5);
   EXPECT_LT(json["scores_2d"]["median_px"], json["control_2d"]["median_px"]);
   EXPECT_LT(json["scores_2d"]["median_px"], 1.5);  // marks are bounded by whole pixels

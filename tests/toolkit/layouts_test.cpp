@@ -10,6 +10,7 @@
 #include "io/geometry/depth_files.h"
 #include "io/geometry/trajectory_file.h"
 #include "io/geometry/xyz_files.h"
+#include "io/sequences/sequence_reader.h"
 #include "stereo/rectification/rectifier.h"
 #include "support/in_folder.h"
 #include "tests/io/temporary_folder.h"
@@ -151,6 +152,47 @@ TEST_F(Layouts, ShippedFormsAreReconstructedAsOurOwn) {
   EXPECT_EQ(written(describePath(at("d4d/clips/Clip_1")).json())["frames"], 2);
   fs::remove(right + "000000000.png");
   EXPECT_EQ(written(describePath(at("d4d/clips/Clip_1")).json())["frames"], 1);
+}
+
+TEST_F(Layouts, MasksOfStereoMisAreIgnoredPixelsOfTheirFrameAndTheNext) {
+  simulate("own", "", {"frames=3"});
+  simulate("P1", "stereomis", {"frames=3"});
+  EXPECT_EQ(checked("P1")["masks"], 2) << "half rate";
+  const auto masksOf = [&](const std::string& clip) {
+    std::vector<Mask> masks;
+    SequenceReader reader(at(clip));
+    while (const auto frame = reader.next()) masks.push_back(frame->frame.mask);
+    return masks;
+  };
+  const std::vector<Mask> own = masksOf("own"), found = masksOf("P1");
+  ASSERT_EQ(found.size(), 3u);
+  for (const int frame : {0, 2}) {
+    const Mask &expected = own[std::size_t(frame)], &mask = found[std::size_t(frame)];
+    ASSERT_TRUE(mask.sameShape(expected));
+    int ignored = 0, different = 0;
+    for (int v = 0; v < mask.height_px; ++v)
+      for (int u = 0; u < mask.width_px; ++u) {
+        const bool is_tissue = expected.at(u - u % 2, v - v % 2) == 0;  // half the size
+        ignored += !is_tissue;
+        different += (mask.at(u, v) == 0) != is_tissue;
+      }
+    EXPECT_GT(ignored, 300);
+    EXPECT_EQ(different, 0);
+  }
+  EXPECT_EQ(found[1].values, found[0].values);
+
+  // A damaged mask of a later frame costs that frame; one of the first frame, the sequence.
+  fs::resize_file(at("P1/masks/000002l.png"), 40);
+  SequenceReader reader(at("P1"));
+  EXPECT_TRUE(reader.next()->ok() && reader.next()->ok());
+  EXPECT_THAT(reader.next()->error, HasSubstr("masks/000002l.png"));
+  fs::resize_file(at("P1/masks/000000l.png"), 40);
+  expectError<InputError>([&] { SequenceReader(at("P1")); }, {"masks/000000l.png"});
+  // A missing one is a warning; masks in the form of softscope replace them.
+  fs::remove(at("P1/masks/000000l.png"));
+  EXPECT_THAT(describePath(at("P1")).text(), HasSubstr("2 of 3 frames have no mask"));
+  fs::copy(at("own/mask"), at("P1/mask"));
+  EXPECT_EQ(masksOf("P1")[2].values, own[2].values);
 }
 
 TEST_F(Layouts, WhatAFormCannotHoldIsRefused) {

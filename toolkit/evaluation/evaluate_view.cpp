@@ -9,6 +9,7 @@
 #include "io/files/folder.h"
 #include "io/images/image_reader.h"
 #include "io/sequences/sequence_paths.h"
+#include "io/sequences/tissue_masks.h"
 #include "io/text/message.h"
 #include "stereo/images/view_masks.h"
 #include "stereo/rectification/image_border.h"
@@ -49,9 +50,11 @@ ViewJudge::ViewJudge(const SequenceTruth& truth)
     : rig_(truth.rig), rectifier_(sequenceCalibration(truth.folder)) {
   const SequencePaths paths = pathsOrNone(truth.folder);
   pictures_ = paths.left_files.empty() ? picturesIn(paths.left) : paths.left_files;
-  masks_ = picturesIn(paths.mask);
   if (!paths.stereo.empty() || isVideo(paths.left))
     video_ = std::make_unique<FrameLoader>(paths, SequenceOptions());
+  tissue_masks_ = video_ && paths.tissue_masks;
+  masks_ =
+      tissue_masks_ ? findTissueMasks(paths.mask, video_->count()).files : picturesIn(paths.mask);
 }
 
 std::optional<ColourImage> ViewJudge::photograph(int frame) {
@@ -65,7 +68,10 @@ std::optional<ColourImage> ViewJudge::photograph(int frame) {
 
 Mask ViewJudge::instruments(int frame) const {
   const auto i = static_cast<std::size_t>(frame);
-  if (i >= masks_.size()) return rectifier_.outside().left;
+  if (i >= masks_.size() || masks_[i].empty()) return rectifier_.outside().left;
+  if (tissue_masks_)
+    return rectifier_.rectifyMask(
+        readTissueMask(masks_[i], rig_.left.width_px, rig_.left.height_px));
   const Mask raw = readMask(masks_[i]);
   requireSize(raw.width_px, raw.height_px, rig_.left, masks_[i]);
   return rectifier_.rectifyMask(raw);

@@ -54,6 +54,7 @@ class ViewJudge {
   RectifiedRig rig_;
   Rectifier rectifier_;
   std::vector<std::filesystem::path> pictures_, masks_;  // by frame
+  bool tissue_masks_ = false;                            // form of masks_; some are empty
   std::unique_ptr<FrameLoader> video_;                   // instead of pictures_
 };
 

@@ -28,7 +28,8 @@ std::string digits(long long number, int count) {
   return text.str();
 }
 
-void putPng(LayoutFolder* folder, const std::string& name, const ColourImage& image) {
+template <class Image>
+void putPng(LayoutFolder* folder, const std::string& name, const Image& image) {
   folder->make(name, [&](const fs::path& file) { writePng(file, image, false); });
 }
 
@@ -67,13 +68,15 @@ class ServCtLayout : public DatasetLayout {
 class StereoMisLayout : public DatasetLayout {
  public:
   StereoMisLayout(const fs::path& folder, const SimulateOptions& options)
-      : folder_(folder), rate_(options.simulation.frames_per_second) {}
+      : folder_(folder), rate_(options.simulation.frames_per_second), masks_(options.masks) {}
 
   void addFrame(int index, const SimulatedFrame& frame, const Simulator& /*simulator*/) override {
     const ColourImage both = stackedViews(frame.pictures);
     if (video_.empty())
       video_.emplace_back(folder_ / "video.mp4", both.width_px, both.height_px, rate_, false);
     video_[0].add(both);
+    if (masks_ && !frame.instrument.empty() && index % 2 == 0)  // half rate
+      putPng(&folder_, "masks/" + digits(index, 6) + "l.png", halfTissue(frame.instrument));
     poses_ += poseLine(frame.pose, std::to_string(index));
     ++count_;
   }
@@ -86,8 +89,18 @@ class StereoMisLayout : public DatasetLayout {
   }
 
  private:
+  /// 255 for tissue, in half the size.
+  static GrayImage halfTissue(const Mask& instrument) {
+    GrayImage tissue((instrument.width_px + 1) / 2, (instrument.height_px + 1) / 2);
+    for (int v = 0; v < tissue.height_px; ++v)
+      for (int u = 0; u < tissue.width_px; ++u)
+        tissue.at(u, v) = instrument.at(2 * u, 2 * v) == 0 ? 255 : 0;
+    return tissue;
+  }
+
   LayoutFolder folder_;
   double rate_;
+  bool masks_;
   std::vector<VideoWriter> video_;
   std::string poses_;
   int count_ = 0;

@@ -15,6 +15,7 @@
 #include "io/sequences/depth_relief.h"
 #include "io/sequences/frame_pairing.h"
 #include "io/sequences/timestamps_file.h"
+#include "io/sequences/tissue_masks.h"
 #include "io/text/message.h"
 
 namespace softscope {
@@ -88,7 +89,15 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
       throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but there are ",
                             count_, " images: no two would belong together."));
   }
-  if (!paths.mask.empty()) masks_ = partnersIn(paths.mask, kMaskKinds, view);
+  tissue_masks_ = paths.tissue_masks;
+  std::vector<std::string> warnings;
+  if (tissue_masks_) {
+    TissueMasks masks = findTissueMasks(paths.mask, count_);
+    masks_ = std::move(masks.files);
+    warnings = std::move(masks.warnings);
+  } else if (!paths.mask.empty()) {
+    masks_ = partnersIn(paths.mask, kMaskKinds, view);
+  }
   if (!paths.depth_files.empty())
     depths_ = paths.depth_files;
   else if (!paths.depth.empty())
@@ -99,6 +108,7 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
     requireCount(times_s_.size(), count_, paths.timestamps, "times");
   }
   if (!depth_alone) setCalibration(paths);
+  for (std::string& line : warnings) calibration_.warnings.push_back(std::move(line));
 }
 
 void FrameLoader::setCalibration(const SequencePaths& paths) {
@@ -137,16 +147,21 @@ Frame FrameLoader::load(int index) {
   if (right_)
     requireShape(frame.pair.right.width_px, frame.pair.right.height_px, right_->nameOf(index));
   const auto i = static_cast<std::size_t>(index);
-  if (!masks_.empty()) {
-    frame.mask = readMask(masks_[i]);
-    requireShape(frame.mask.width_px, frame.mask.height_px, shown(masks_[i]));
-  }
+  if (!masks_.empty() && !masks_[i].empty()) frame.mask = maskFrom(masks_[i]);
   if (!depths_.empty()) {
     frame.depth_mm = readDepth(depths_[i], calibration_.depth_unit_mm);
     requireShape(frame.depth_mm.width_px, frame.depth_mm.height_px, shown(depths_[i]));
     requireMillimetres(frame.depth_mm, shown(depths_[i]));
   }
   return frame;
+}
+
+Mask FrameLoader::maskFrom(const fs::path& file) const {
+  const PinholeCamera& camera = calibration_.left.pinhole;
+  if (tissue_masks_) return readTissueMask(file, camera.width_px, camera.height_px);
+  Mask mask = readMask(file);
+  requireShape(mask.width_px, mask.height_px, shown(file));
+  return mask;
 }
 
 StereoPair FrameLoader::readPair(int index) {

@@ -48,6 +48,7 @@ class FrameLoader {
  private:
   void setCalibration(const SequencePaths& paths);
   StereoPair readPair(int index);
+  Mask maskFrom(const std::filesystem::path& file) const;
   void requirePartner(int index) const;
   void determineSize(const ColourImage& left, const std::string& name);
   void requireShape(int width_px, int height_px, const std::string& name) const;
@@ -62,6 +63,7 @@ class FrameLoader {
   StereoPacking packing_;
   int count_ = 0;
   std::vector<std::filesystem::path> masks_, depths_;  // empty, or one per frame
+  bool tissue_masks_ = false;                          // form of masks_; some are empty
   std::vector<double> times_s_;                        // empty, or one per frame
 };
 

@@ -63,7 +63,10 @@ SequencePaths findSequence(const fs::path& folder) {
   if (!is_own || isFile(folder / "calib.json")) {  // name in STIR; its videos may have our names
     if (const auto clip = recogniseDataset(folder)) {
       SequencePaths shipped = clip->paths;
-      shipped.mask = paths.mask;
+      if (!paths.mask.empty()) {
+        shipped.mask = paths.mask;
+        shipped.tissue_masks = false;
+      }
       shipped.timestamps = paths.timestamps;
       return shipped;
     }

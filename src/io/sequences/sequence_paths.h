@@ -14,6 +14,7 @@ struct SequencePaths {
   std::filesystem::path stereo;
   std::filesystem::path calibration;  // file, or folder with a calibration
   std::filesystem::path mask;         // folder or image; empty = none
+  bool tissue_masks = false;          // mask is a folder as in io/sequences/tissue_masks.h
   std::filesystem::path depth;        // folder or file; empty = none
   std::filesystem::path timestamps;   // file; empty = none
   // For data sets whose folders contain other files, or views

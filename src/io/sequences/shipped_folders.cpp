@@ -75,6 +75,10 @@ DatasetClip stereoMis(const fs::path& folder) {
   clip.paths.stereo = onlyVideo(folder, "StereoMIS");
   clip.paths.calibration = folder / "StereoCalibration.ini";
   clip.paths.layout = "top-bottom";
+  if (isThere(folder / "masks")) {
+    clip.paths.mask = folder / "masks";
+    clip.paths.tissue_masks = true;
+  }
   clip.truth = existingIn(folder, {"groundtruth.txt", "train_split.csv", "test_split.csv"});
   return clip;
 }
