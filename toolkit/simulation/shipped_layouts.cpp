@@ -33,8 +33,9 @@ void putPng(LayoutFolder* folder, const std::string& name, const Image& image) {
   folder->make(name, [&](const fs::path& file) { writePng(file, image, false); });
 }
 
+/// Metres.
 std::string poseLine(const TimedPose& pose, const std::string& first) {
-  const Eigen::Vector3d t = pose.world_from_left.translation();
+  const Eigen::Vector3d t = pose.world_from_left.translation() / 1000;
   const Eigen::Quaterniond q(pose.world_from_left.linear());
   return say(first, " ", exactText(t.x()), " ", exactText(t.y()), " ", exactText(t.z()), " ",
              exactText(q.x()), " ", exactText(q.y()), " ", exactText(q.z()), " ", exactText(q.w()),

@@ -12,6 +12,8 @@ namespace softscope {
 namespace {
 
 constexpr double kMostFrames = 1e7;
+constexpr double kMmPerM = 1000;
+constexpr double kLargestPathMm = 1000;  // beyond the reach of the robot in a body
 
 int wholeFrame(double value, const std::string& what) {
   if (!(value >= 0 && value <= kMostFrames) || value != std::floor(value))
@@ -26,8 +28,16 @@ std::map<int, Eigen::Isometry3d> parseStereoMisPath(std::string_view text,
   std::map<int, Eigen::Isometry3d> path;
   for (const TimedPose& pose : parseTrajectory(text, name)) {
     const int frame = wholeFrame(pose.time_s, name + ": the first number of a line");
-    if (!path.emplace(frame, pose.world_from_left).second)
+    Eigen::Isometry3d world_from_left = pose.world_from_left;
+    world_from_left.translation() *= kMmPerM;
+    if (!path.emplace(frame, world_from_left).second)
       throw InputError(say(name, ": frame ", frame, " comes twice. Download it again."));
+    const double reach_mm =
+        (world_from_left.translation() - path.begin()->second.translation()).norm();
+    if (reach_mm > kLargestPathMm)
+      throw InputError(say(name, ": frame ", frame, " is ", reach_mm / kMmPerM,
+                           " m from the first one, but a scope in a body moves by less than 1 m. "
+                           "In mm? StereoMIS has metres."));
   }
   return path;
 }
