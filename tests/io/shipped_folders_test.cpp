@@ -169,8 +169,8 @@ TEST(StereoMisFiles, PathAndSplitComeBackOrAreRefused) {
   const auto path = parseStereoMisPath("0 1 2 3 0 0 0 1\n7 1.25 2.5 3 0 0 0 1\n", "g");
   ASSERT_EQ(path.size(), 2u);
   EXPECT_EQ(path.at(7).translation(), Eigen::Vector3d(1250, 2500, 3000)) << "metres on disk";
-  expectError<InputError>([] { parseStereoMisPath("0 0 0 0 0 0 0 1\n3 4 0 0 0 0 0 1\n", "g.txt"); },
-                          {"g.txt: frame 3 is 4 m", "In mm?"});
+  const auto in_mm = parseStereoMisPath("0 1 2 3 0 0 0 1\n7 4 5 6 0 0 0 1\n", "g");
+  EXPECT_EQ(in_mm.at(7).translation(), Eigen::Vector3d(4, 5, 6)) << "no scope moves by 5 m";
   expectError<InputError>([] { parseStereoMisPath("0.5 1 2 3 0 0 0 1\n", "g.txt"); },
                           {"g.txt", "number of a frame"});
   expectError<InputError>([] { parseStereoMisPath("1 1 2 3 0 0 0 1\n1 1 2 3 0 0 0 1\n", "g.txt"); },

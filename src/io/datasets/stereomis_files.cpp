@@ -1,5 +1,6 @@
 #include "io/datasets/stereomis_files.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -13,7 +14,7 @@ namespace {
 
 constexpr double kMostFrames = 1e7;
 constexpr double kMmPerM = 1000;
-constexpr double kLargestPathMm = 1000;  // beyond the reach of the robot in a body
+constexpr double kFarthestM = 1;  // from the first place: no scope moves so far in a body
 
 int wholeFrame(double value, const std::string& what) {
   if (!(value >= 0 && value <= kMostFrames) || value != std::floor(value))
@@ -28,17 +29,14 @@ std::map<int, Eigen::Isometry3d> parseStereoMisPath(std::string_view text,
   std::map<int, Eigen::Isometry3d> path;
   for (const TimedPose& pose : parseTrajectory(text, name)) {
     const int frame = wholeFrame(pose.time_s, name + ": the first number of a line");
-    Eigen::Isometry3d world_from_left = pose.world_from_left;
-    world_from_left.translation() *= kMmPerM;
-    if (!path.emplace(frame, world_from_left).second)
+    if (!path.emplace(frame, pose.world_from_left).second)
       throw InputError(say(name, ": frame ", frame, " comes twice. Download it again."));
-    const double reach_mm =
-        (world_from_left.translation() - path.begin()->second.translation()).norm();
-    if (reach_mm > kLargestPathMm)
-      throw InputError(say(name, ": frame ", frame, " is ", reach_mm / kMmPerM,
-                           " m from the first one, but a scope in a body moves by less than 1 m. "
-                           "In mm? StereoMIS has metres."));
   }
+  double farthest = 0;
+  for (const auto& [frame, pose] : path)
+    farthest = std::max(farthest, (pose.translation() - path.begin()->second.translation()).norm());
+  if (farthest <= kFarthestM)
+    for (auto& [frame, pose] : path) pose.translation() *= kMmPerM;
   return path;
 }
 

@@ -13,8 +13,8 @@
 namespace softscope {
 
 /// By frame: world_from_left, mm, of the raw left camera; from lines `frame tx ty tz qx qy qz qw`,
-/// in metres. Throws InputError: an invalid line, an invalid or duplicate frame number, a path of a
-/// metre or more, as of a file in mm.
+/// in metres; in mm if a place is farther than 1 from the first one. Throws InputError: an invalid
+/// line, an invalid or duplicate frame number.
 std::map<int, Eigen::Isometry3d> readStereoMisPath(const std::filesystem::path& file);
 std::map<int, Eigen::Isometry3d> parseStereoMisPath(std::string_view text, const std::string& name);
 
