@@ -107,6 +107,14 @@ TEST_F(Records, HashesTellWhatWasCompared) {
   EXPECT_EQ(evaluated["inputs_sha256"]["run"].get<std::string>().size(), 64u);
 }
 
+TEST_F(Records, TheWarningOfOtherImagesIsComplete) {
+  const std::string clip = makeSequence("clip", 2);
+  for (const char* side : {"left", "right"}) fs::copy(clip + "/" + side, at("truth") + "/" + side);
+  write("run/run.json", R"({"inputs": {"left": {"sha256": "00"}}})");
+  EXPECT_EQ(evaluated()["warnings"][0],
+            "truth/left: the run was made from other images; a run of another sequence?");
+}
+
 TEST_F(Records, ARunWithoutPathsIsJudgedAndReported) {
   const std::string clip = makeSequence("clip", 2);
   ASSERT_EQ(run({"reconstruct", clip, "--out", at("r"), "--quiet"}).exit_code, 0);

@@ -139,6 +139,19 @@ TEST_F(Viewer, ErrorsComeFromTheTruthOrFromAnEvaluation) {
   EXPECT_LT(different, 200);
 }
 
+TEST_F(Viewer, ARunOfOtherImagesIsWarnedOf) {
+  ViewRequest request = screenshot();
+  request.run.reference = at("truth");
+  EXPECT_THAT(warningsOf(request), Not(Contains(HasSubstr("other images"))));
+  writeSequence(at("images"), 2);
+  for (const char* side : {"left", "right"})
+    fs::copy(at("images") + "/" + side, at("truth") + "/" + side);
+  write("run/run.json", R"({"inputs": {"left": {"sha256": "00"}}})");
+  EXPECT_THAT(warningsOf(request),
+              Contains(at("truth/left") + ": the run was made from other images; a run of "
+                                          "another sequence?"));
+}
+
 TEST_F(Viewer, AnEvaluationOfAnotherRunIsRefused) {
   evaluateInto("evaluation");
   fs::copy_file(at("run/models/000001.ply"), at("run/models/000005.ply"),

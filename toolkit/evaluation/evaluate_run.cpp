@@ -44,7 +44,7 @@ EvaluationResult againstSequence(const EvaluateOptions& options, const JudgedRun
                                  const Progress& progress) {
   const SequenceTruth truth = openSequenceTruth(options.reference);
   requireSameSequence(run, truth);
-  const std::vector<std::string> origin = checkOrigin(run, truth);
+  const std::vector<std::string> origin = checkOrigin(run.folder, truth);
   EvaluationResult result;
   result.outcomes = run.outcomes;
   for (const int frame : run.frames)

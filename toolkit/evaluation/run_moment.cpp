@@ -77,7 +77,7 @@ std::vector<double> RunMoment::signedDistances(bool observed_only) const {
 JudgedPair::JudgedPair(const std::string& run_folder, const std::string& sequence)
     : run(openJudgedRun(run_folder)), truth(openSequenceTruth(sequence)) {
   requireSameSequence(run, truth);
-  warnings = checkOrigin(run, truth);
+  warnings = checkOrigin(run.folder, truth);
   if (frames().empty())
     throw InputError(shown(run.folder) +
                      ": no frame has both a model of a fused frame and a true mesh; reconstruct "

@@ -52,14 +52,13 @@ std::string pictureWarning(const Json& record, const SequenceTruth& truth) {
     return {};
   }
   if (paths.left.empty() || sha256Of(paths.left) == recorded) return {};
-  return "the run was made from other images than those in " + shown(paths.left) +
-         "; a run of another sequence?";
+  return shown(paths.left) + ": the run was made from other images; a run of another sequence?";
 }
 
 }  // namespace
 
-std::vector<std::string> checkOrigin(const JudgedRun& run, const SequenceTruth& truth) {
-  const fs::path file = run.folder / "run.json";
+std::vector<std::string> checkOrigin(const fs::path& run, const SequenceTruth& truth) {
+  const fs::path file = run / "run.json";
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return {};
   const Json record = readRunRecord(file);

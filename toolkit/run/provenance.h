@@ -1,6 +1,7 @@
 // toolkit/run/provenance.h: check that a run belongs to a sequence.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -8,9 +9,9 @@
 
 namespace softscope {
 
-/// Compares cameras and images with run.json; passes without one. Returns
+/// Compares cameras and images with run.json in the folder of a run; passes without one. Returns
 /// warnings about another focal length or baseline, or other images, which may
 /// be intended. Throws InputError for a damaged run.json or another image size.
-std::vector<std::string> checkOrigin(const JudgedRun& run, const SequenceTruth& truth);
+std::vector<std::string> checkOrigin(const std::filesystem::path& run, const SequenceTruth& truth);
 
 }  // namespace softscope

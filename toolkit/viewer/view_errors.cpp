@@ -14,6 +14,7 @@
 #include "mesh/mesh_reader.h"
 #include "toolkit/comparison/compare_inputs.h"
 #include "toolkit/evaluation/evaluate_maps.h"
+#include "toolkit/run/provenance.h"
 #include "vtk_views/files/error_map.h"
 
 namespace softscope {
@@ -47,12 +48,16 @@ class StillReference : public MomentErrors {
 /// True meshes of selected frames, in the camera frame of each.
 class TrueReference : public MomentErrors {
  public:
-  explicit TrueReference(const fs::path& sequence) : truth_(openSequenceTruth(sequence)) {
+  TrueReference(const fs::path& sequence, const fs::path& run)
+      : truth_(openSequenceTruth(sequence)) {
     if (truth_.meshes.empty())
       throw InputError(shown(sequence) +
                        ": has no true meshes (groundtruth/mesh); give a sequence that has, or a "
                        "mesh");
+    warnings_ = checkOrigin(run, truth_);
   }
+
+  std::vector<std::string> warnings() const override { return warnings_; }
 
   std::shared_ptr<const TriangleMesh> reference(const ViewMoment& moment) override {
     const auto file = truth_.meshes.find(moment.frame);
@@ -74,6 +79,7 @@ class TrueReference : public MomentErrors {
 
  private:
   SequenceTruth truth_;
+  std::vector<std::string> warnings_;
   int frame_ = -1;
   std::shared_ptr<const TriangleMesh> mesh_;  // mesh of that frame
 };
@@ -144,9 +150,9 @@ class Evaluated : public MomentErrors {
 
 }  // namespace
 
-std::unique_ptr<MomentErrors> errorsFromReference(const fs::path& reference,
+std::unique_ptr<MomentErrors> errorsFromReference(const fs::path& reference, const fs::path& run,
                                                   const Eigen::Isometry3d& reference_from_run) {
-  if (fs::is_directory(reference)) return std::make_unique<TrueReference>(reference);
+  if (fs::is_directory(reference)) return std::make_unique<TrueReference>(reference, run);
   TriangleMesh mesh = readSurfaceOrPoints(reference, 0);
   if (mesh.empty())
     throw InputError(shown(reference) +

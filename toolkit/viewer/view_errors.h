@@ -5,6 +5,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "eval/distance/triangle_tree.h"
 #include "toolkit/evaluation/surface_error_map.h"
@@ -21,11 +23,14 @@ class MomentErrors {
   virtual std::shared_ptr<const TriangleMesh> reference(const ViewMoment& moment) = 0;
   /// Adds points and (signed) errors of the frame; none if unknown.
   virtual void judge(bool with_sign, ViewMoment& moment) = 0;
+  /// Differences between the run and its reference.
+  virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-/// From a static mesh in the world of the run, or
-/// from the truth of its sequence. Throws InputError.
+/// From a static mesh in the world of the run, or from the truth of its
+/// sequence, compared with run.json in the folder `run`. Throws InputError.
 std::unique_ptr<MomentErrors> errorsFromReference(const std::filesystem::path& reference,
+                                                  const std::filesystem::path& run,
                                                   const Eigen::Isometry3d& reference_from_run);
 
 /// From errors/NNNNNN.vtp of `softscope evaluate`. Throws InputError if there are none.

@@ -135,8 +135,10 @@ void RunSource::addVolume() {
 
 void RunSource::addErrors() {
   if (!options_.evaluation.empty()) errors_ = errorsFromEvaluation(options_.evaluation);
-  if (!options_.reference.empty())
-    reference_ = errorsFromReference(options_.reference, scene_from_run_);
+  if (!options_.reference.empty()) {
+    reference_ = errorsFromReference(options_.reference, run_, scene_from_run_);
+    for (const std::string& warning : reference_->warnings()) warnings_.push_back(warning);
+  }
   if (!errors_ && !reference_) return;
   world_.has_errors = true;
   world_.has_reference = reference_ != nullptr;
