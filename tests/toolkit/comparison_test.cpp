@@ -244,6 +244,26 @@ TEST_F(Comparison, LimitsFailWhereTheyHold) {
   EXPECT_NEAR(outcomes.at(1).value, 0.75, 1e-6);
 }
 
+TEST_F(Comparison, EveryMetricOfTheRecordCanHaveALimit) {
+  CompareOptions limited = options("above.obj");
+  limited.taus_mm = {0.5, 1};
+  limited.observed = at("reference.obj");
+  limited.thresholds =
+      limits({"observed.accuracy.p95_mm>0.7", "scores.0.5mm.recall<0.1", "1mm.surface_dice<0.9"});
+  const auto outcomes = compareFiles(limited).outcomes;
+  EXPECT_NEAR(outcomes.at(0).value, 0.75, 1e-6);
+  EXPECT_EQ(outcomes.at(1).value, 0);
+  EXPECT_EQ(outcomes.at(2).path, "scores.1mm.surface_dice");
+  EXPECT_EQ(outcomes.at(2).value, 1);
+  const auto refused = [&](const std::string& limit, const std::string& part) {
+    limited.thresholds = limits({limit});
+    expectError<OptionError>([&] { limited.validate(); }, {part});
+  };
+  refused("surface_dice<0.9", "write it in full");
+  limited.observed.clear();
+  refused("observed.accuracy.p95_mm>0.1", "no metric of this evaluation");
+}
+
 TEST_F(Comparison, BadInputIsRefusedInOneLine) {
   PointCloud cloud;
   cloud.points_mm = {{1, 2, 3}};

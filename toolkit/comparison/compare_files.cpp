@@ -32,6 +32,17 @@ ObservedSplit split(const CompareOptions& options, const FileComparison& compare
                          options.observed_reach_mm);
 }
 
+/// Every metric that these options give, without its value.
+ComparisonResult unmeasured(const CompareOptions& options) {
+  ComparisonResult result;
+  for (const double tau_mm : options.taus_mm) {
+    result.comparison.scores.emplace_back();
+    result.comparison.scores.back().tau_mm = tau_mm;
+  }
+  if (!options.observed.empty()) result.observed.emplace();
+  return result;
+}
+
 /// File of the test surface; for a run its selected model.
 std::string testFile(const CompareOptions& options, std::vector<std::string>& warnings) {
   if (!isFolder(options.test)) return options.test;
@@ -66,7 +77,7 @@ void CompareOptions::validate() const {
     throw OptionError("`transform=` and `landmarks=` exclude each other; give one");
   for (const double tau_mm : taus_mm)
     require(tau_mm > 0 && std::isfinite(tau_mm), "`taus_mm=`", tau_mm, "must be above 0");
-  checkThresholds(thresholds, comparisonJson({}), kAccuracy);
+  checkThresholds(thresholds, comparisonJson(unmeasured(*this)), kAccuracy);
 }
 
 FileComparison compareFiles(const CompareOptions& options) {

@@ -8,17 +8,34 @@
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "io/text/text_lines.h"
+#include "toolkit/record/record_values.h"
 
 namespace softscope {
 namespace {
 
 using Metrics = std::vector<std::pair<std::string, double>>;
 
+constexpr const char* kTau = "tau_mm";
+
+void collect(const FactSheet::Json& json, const std::string& path, Metrics& metrics);
+
+/// Scores within a distance have a path by it: "scores.0.5mm.recall". Other lists have none.
+void collectScores(const FactSheet::Json& list, const std::string& path, Metrics& metrics) {
+  for (FactSheet::Json scores : list) {
+    const double tau_mm = numberAt(scores, kTau);
+    if (!std::isfinite(tau_mm)) continue;
+    scores.erase(kTau);
+    collect(scores, path + "." + exactText(tau_mm) + "mm", metrics);
+  }
+}
+
 void collect(const FactSheet::Json& json, const std::string& path, Metrics& metrics) {
   for (const auto& [key, value] : json.items()) {
     const std::string here = path.empty() ? key : path + "." + key;
     if (value.is_object())
       collect(value, here, metrics);
+    else if (value.is_array())
+      collectScores(value, here, metrics);
     else if (value.is_number())
       metrics.emplace_back(here, value.get<double>());
     else if (value.is_null())

@@ -33,7 +33,8 @@ struct ThresholdOutcome {
   bool failed = false;
 };
 
-/// Every number (or null) of a result by its path, with dots; without lists.
+/// Every number (or null) of a result by its path, with dots. Of the
+/// lists only scores with a `tau_mm`, as "scores.0.5mm.recall".
 std::vector<std::pair<std::string, double>> metricsOf(const FactSheet::Json& result);
 
 /// Searches each metric by its path, by its name in the part `preferred`, or by a unique last
