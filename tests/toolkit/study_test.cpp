@@ -179,6 +179,26 @@ TEST(StudyTable, HasARowACaseAndNoEmptyColumns) {
   EXPECT_THAT(table.csv(), HasSubstr("\nnoise-3,,,,failed\n"));
 }
 
+TEST(StudyTable, AMetricThatNoCaseHasIsWarnedOf) {
+  Swept swept;
+  swept.study.columns = {{"evaluation.tracks.mean_mmm", "points", 3}, {"run.fused_share", "f", 2}};
+  swept.study.plots[0].metric.path = "evaluation.trakcs.mean_mm";
+  swept.study.plots[0].p95_path = "evaluation.tracks.p95_mm";
+  swept.records[0]["evaluation"]["tracks"]["p95_mm"] = nullptr;
+  const std::vector<std::string> expected{
+      "column: no case has a value of `evaluation.tracks.mean_mmm` (did you mean "
+      "`evaluation.tracks.mean_mm`?)",
+      "plot points: no case has a value of `evaluation.trakcs.mean_mm` (did you mean "
+      "`evaluation.tracks.mean_mm`?); every level counts as broken",
+      "plot points: no case has a value of `evaluation.tracks.p95_mm`"};
+  EXPECT_EQ(metricWarnings(swept.study, swept.records), expected);
+  EXPECT_THAT(studyTable(swept.study, swept.records).notes, testing::IsSupersetOf(expected));
+  for (FactSheet::Json& record : swept.records) record = FactSheet::Json();
+  EXPECT_TRUE(metricWarnings(swept.study, swept.records).empty()) << "no case is done";
+  const Swept spelt;
+  EXPECT_TRUE(metricWarnings(spelt.study, spelt.records).empty());
+}
+
 TEST(StudyTable, CellsThatWouldBreakACsvAreQuoted) {
   StudyTable table;
   table.headings = {"a, \"b\""};

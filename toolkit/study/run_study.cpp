@@ -15,6 +15,7 @@
 #include "toolkit/study/study_case.h"
 #include "toolkit/study/study_gpus.h"
 #include "toolkit/study/study_outputs.h"
+#include "toolkit/study/study_table.h"
 
 namespace softscope {
 namespace {
@@ -177,6 +178,7 @@ WrittenStudy writeStudyTable(const StudyRun& run, bool check, const WorkListener
     records.push_back(check ? currentRecord(one, run.folder) : recordOf(one, run.folder));
     written.failed += tellIfBad(run, one, records.back(), listener) ? 1 : 0;
   }
+  for (const std::string& warning : metricWarnings(run.study, records)) listener.warn(warning);
   writeStudy(run.study, records, run.command(), run.folder);
   written.record = studyJson(run.study, records, run.command());
   written.markdown = studyTable(run.study, records).markdown();

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/nearest_name.h"
 #include "core/not_measured.h"
 #include "io/text/message.h"
 #include "toolkit/record/machine.h"
@@ -74,8 +75,24 @@ std::string breakText(const StudyBreak& found) {
   return found.not_run.empty() ? "holds at all levels" : "holds at " + listed(found.held) + unknown;
 }
 
+/// Dotted paths of all numbers and nulls.
+void addPaths(const Json& record, const std::string& head, std::vector<std::string>& paths) {
+  if (record.is_number() || record.is_null()) paths.push_back(head);
+  if (!record.is_object()) return;
+  for (const auto& [key, value] : record.items())
+    addPaths(value, head.empty() ? key : head + "." + key, paths);
+}
+
+std::string unknownMetric(const std::string& at, const std::string& path,
+                          const std::vector<std::string>& known) {
+  const bool spelt = std::find(known.begin(), known.end(), path) != known.end();
+  const std::string nearest = spelt ? "" : nearestName(path, known);
+  return at + ": no case has a value of `" + path + "`" +
+         (nearest.empty() ? "" : " (did you mean `" + nearest + "`?)");
+}
+
 std::vector<std::string> notesOf(const Study& study, const std::vector<Json>& records) {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = metricWarnings(study, records);
   std::set<std::string> builds;
   for (std::size_t i = 0; i < study.cases.size(); ++i) {
     const StudyCase& one = study.cases[i];
@@ -187,6 +204,25 @@ std::vector<StudyBreak> breaksOf(const Study& study, const std::vector<Json>& re
                              [](const StudyBreak& b) { return !b.broken && b.held.empty(); }),
               found.end());
   return found;
+}
+
+std::vector<std::string> metricWarnings(const Study& study, const std::vector<Json>& records) {
+  std::vector<std::string> known;
+  for (const Json& record : records)
+    if (statusOf(record) == "done") addPaths(record, "", known);
+  if (known.empty()) return {};
+  std::vector<std::string> warnings;
+  const auto check = [&](const std::string& at, const std::string& path, const char* effect) {
+    if (!path.empty() && !anyValue(records, path))
+      warnings.push_back(unknownMetric(at, path, known) + effect);
+  };
+  for (const StudyMetric& column : study.columns) check("column", column.path, "");
+  for (const StudyPlot& plot : study.plots) {
+    const bool judges = plot.limit > 0 && !study.sweeps.empty();
+    check("plot " + plot.name, plot.metric.path, judges ? "; every level counts as broken" : "");
+    check("plot " + plot.name, plot.p95_path, "");
+  }
+  return warnings;
 }
 
 Json studyJson(const Study& study, const std::vector<Json>& records, const std::string& command) {

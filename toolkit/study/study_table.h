@@ -38,6 +38,11 @@ std::string seriesName(const StudyCase& study_case);
 /// or above the limit of the plot, or if fewer than half of the frames were fused.
 std::vector<StudyBreak> breaksOf(const Study& study, const std::vector<FactSheet::Json>& records);
 
+/// Metrics of columns and plots in the study file without a value in any
+/// case, with the nearest name. Empty as long as no case is done.
+std::vector<std::string> metricWarnings(const Study& study,
+                                        const std::vector<FactSheet::Json>& records);
+
 struct StudyTable {
   std::vector<std::string> headings;
   std::vector<std::vector<std::string>> rows;  // one per case, as many cells as headings
@@ -47,7 +52,7 @@ struct StudyTable {
   std::string markdown() const;
 };
 
-/// Columns without any value are omitted.
+/// Columns without any value are omitted; the notes have metricWarnings().
 StudyTable studyTable(const Study& study, const std::vector<FactSheet::Json>& records);
 
 }  // namespace softscope
