@@ -259,6 +259,31 @@ TEST_F(Slices, WhatCannotBeSlicedIsRefused) {
   refused([](SliceRequest& wrong) { wrong.ct.clear(); });  // nothing to slice
 }
 
+TEST_F(Slices, PlanesOutsideOfTheVolumeAreToldOrRefused) {
+  SliceRequest request = slice("out.svg");
+  request.planes = {"axial"};
+  const auto refused = [&](const std::vector<std::string>& parts) {
+    expectError<OptionError>([&] { drawn(request); }, parts);
+    EXPECT_FALSE(fs::exists(at("out.svg")));
+  };
+  request.positions = "3000";
+  refused({"`positions=` is `3000`", "outside of the volume", "z "});
+  request.positions.clear();
+  request.page.at = "5000,0,0";
+  refused({"`at=` is `5000,0,0`", "outside of the volume, x "});
+  request.page.at.clear();
+  request.positions = "0,3000";
+  std::vector<std::string> warnings;
+  drawn(request, &warnings);
+  EXPECT_THAT(warnings, testing::Contains(HasSubstr("S 3000.0 mm: is outside of the volume")));
+  EXPECT_THAT(warnings, testing::Not(testing::Contains(HasSubstr("S 0.0 mm: is outside"))));
+  request.ct.clear();
+  request.reference = at("reference.obj");
+  fs::remove(at("out.svg"));
+  request.positions = "3000";
+  refused({"outside of the surfaces"});
+}
+
 TEST_F(Figures, TheBarEndsNearTheNinetyFifthPercentile) {
   PointCloud cloud;  // 0.4 mm before the box, one point 5 mm
   for (int i = 0; i < 100; ++i)

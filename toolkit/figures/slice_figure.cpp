@@ -116,6 +116,53 @@ std::vector<ViewPlane> planesThrough(const SliceRequest& request,
   return planes;
 }
 
+/// True if the field of view shows nothing of the box.
+bool misses(const ViewPlane& plane, double width_mm, const Eigen::AlignedBox3d& box_mm) {
+  Eigen::AlignedBox3d around;  // the box in right, up and depth from the centre
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d at = box_mm.corner(Eigen::AlignedBox3d::CornerType(corner));
+    const Eigen::Vector2d place = plane.project(at);
+    around.extend(
+        Eigen::Vector3d(place.x(), place.y(), plane.towardsViewer().dot(at - plane.centre_mm)));
+  }
+  const Eigen::Vector3d reach(width_mm, width_mm, 0);  // twice the half, as panels aren't square
+  return !around.intersects(Eigen::AlignedBox3d(-reach, reach));
+}
+
+std::string rangesText(const Eigen::AlignedBox3d& box_mm) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+    text += (axis > 0 ? std::string(", ") : std::string()) + "xyz"[axis] + " " +
+            fixed(box_mm.min()[axis], 1) + " to " + fixed(box_mm.max()[axis], 1);
+  return text + " mm";
+}
+
+/// Warnings of requested planes outside of the volume, or without one of the surfaces.
+/// Throws OptionError if all of them show nothing.
+std::vector<std::string> checkPlanes(const SliceRequest& request, const Scene& scene,
+                                     const PanelField& field) {
+  if (request.positions.empty() && request.page.at.empty()) return {};
+  const bool in_volume = scene.volume.has_value();
+  const Eigen::AlignedBox3d surfaces = boxOf(scene.surfaces);
+  const Eigen::AlignedBox3d content = in_volume ? boxOf(*scene.volume) : surfaces;
+  const std::string where =
+      std::string(in_volume ? "the volume" : "the surfaces") + ", " + rangesText(content);
+  std::vector<std::string> warnings;
+  bool any = false;
+  for (const ViewPlane& plane : field.planes) {
+    const bool outside = misses(plane, field.width_mm, content);
+    any |= !outside || (!surfaces.isEmpty() && !misses(plane, field.width_mm, surfaces));
+    if (outside)
+      warnings.push_back(plane.name + " plane at " + sidesText(plane.centre_mm, 1, scene.frame) +
+                         " mm: is outside of " + where);
+  }
+  if (any) return warnings;
+  const bool by_position = !request.positions.empty();
+  throw OptionError(std::string(by_position ? "`positions=`" : "`at=`") + " is `" +
+                    (by_position ? request.positions : request.page.at) +
+                    "`, but every plane there is outside of " + where);
+}
+
 }  // namespace
 
 void SliceRequest::validate() const {
@@ -143,16 +190,18 @@ DrawnFigure drawSliceFigure(const SliceRequest& request) {
   const Eigen::Vector3d centre_mm = centreOf(request, scene);
   const std::vector<ViewPlane> planes = planesThrough(request, centre_mm);
   panels.foot.notes = notesOnPlanes(request, centre_mm, scene.frame);
+  const PanelField field = sliceViews(scene, planes, panels);
   DrawnFigure figure;
+  figure.warnings = inputs.warnings();
+  for (const std::string& warning : checkPlanes(request, scene, field))
+    figure.warnings.push_back(warning);
   FactSheet::Json& record = figure.record = figureRecord("slice", request.page);
   parallelInvoke([&] { record["inputs"] = inputs.inputsJson(); },
                  [&] { figure.drawing = drawSlices(scene, planes, panels); });
   record["volume"] = inputs.volumeJson();
   record["surfaces"] = inputs.surfacesJson();
-  const PanelField field = sliceViews(scene, planes, panels);
   for (const ViewPlane& plane : field.planes)
     record["views"].push_back(viewJson(plane, scene.frame, field.width_mm));
-  figure.warnings = inputs.warnings();
   record["warnings"] = figure.warnings;
   record = request.page.paths.applyTo(record);
   return figure;
