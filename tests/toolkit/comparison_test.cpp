@@ -122,6 +122,21 @@ TEST_F(Comparison, WhatWasObservedIsJudgedByItself) {
   expectError<InputError>([&] { compareFiles(split); }, {"none.ply"});
 }
 
+TEST_F(Comparison, AnObservedPartElsewhereIsWarnedOf) {
+  PointCloud scan;
+  scan.points_mm.emplace_back(0.0f, 0.0f, 500.0f);
+  writePly(at("scan.ply"), scan, {"world", ""});
+  CompareOptions split = options("above.obj");
+  split.observed = at("scan.ply");
+  const FileComparison compared = compareFiles(split);
+  EXPECT_THAT(written(compared.record)["warnings"].dump(),
+              HasSubstr("scan.ply: nothing of the reference is within 2 mm of it"));
+  EXPECT_THAT(comparisonFacts(compared.result).text(), testing::Not(HasSubstr("nan")));
+  split.observed = at("reference.obj");
+  EXPECT_THAT(written(compareFiles(split).record)["warnings"].dump(),
+              testing::Not(HasSubstr("nothing of the reference")));
+}
+
 TEST_F(Comparison, ARunGivesItsModelOfTheFrameAskedFor) {
   fs::create_directories(at("run/models"));
   write("run/trajectory.txt", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");

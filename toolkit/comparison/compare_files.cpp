@@ -97,7 +97,14 @@ FileComparison compareFiles(const CompareOptions& options) {
   compared.test.vertices_mm = movePoints(result.fit.reference_from_test, compared.test.vertices_mm);
   for (const std::string& warning : result.fit.warnings) result.warnings.push_back(warning);
   result.comparison = compareSurfaces(compared.reference, compared.test, options.taus_mm);
-  if (!options.observed.empty()) result.observed = split(options, compared);
+  if (!options.observed.empty()) {
+    result.observed = split(options, compared);
+    if (result.observed->reference_share == 0)
+      result.warnings.push_back(say(options.observed, ": nothing of the reference is within ",
+                                    options.observed_reach_mm,
+                                    " mm of it, so no value of the observed part is known; in "
+                                    "another space or unit?"));
+  }
 
   FactSheet::Json record = comparisonJson(result);
   record["inputs_sha256"] = {{"reference", sha256Of(options.reference)}, {"test", sha256Of(test)}};

@@ -59,9 +59,10 @@ void addObservedFacts(const ObservedSplit& split, FactSheet& facts) {
   if (split.beyond_share > 0)
     facts.addLine("  beyond", fixed(100 * split.beyond_share, 1) +
                                   " % of the test, beyond the border of the reference: excluded");
-  facts.addLine("  completeness", spreadText(split.completeness_mm) + "; " +
-                                      fixed(100 * split.not_reconstructed_share, 1) +
-                                      " % not reconstructed");
+  std::string completeness = spreadText(split.completeness_mm);
+  if (std::isfinite(split.not_reconstructed_share))
+    completeness += "; " + fixed(100 * split.not_reconstructed_share, 1) + " % not reconstructed";
+  facts.addLine("  completeness", completeness);
 }
 
 }  // namespace
