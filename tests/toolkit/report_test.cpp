@@ -327,6 +327,22 @@ TEST_F(Evaluation, ReportReadsWhatEvaluateAndCompareWrite) {
   EXPECT_THAT(textOf(at("pair.html")), HasSubstr("\"triangles\""));
 }
 
+TEST_F(Evaluation, TheReportOfAComparisonHasItsObservedPart) {
+  CompareOptions same;
+  same.reference = same.test = same.observed = at("truth/groundtruth/mesh/000000.ply");
+  const FileComparison pair = compareFiles(same);
+  CompareOutputs(at("pair"), false).write(pair.result, pair.reference, pair.test, {}, pair.record);
+  ReportOptions of_pair;
+  of_pair.cases = {at("pair")};
+  of_pair.html = at("pair.html");
+  writeReport(of_pair);
+  const std::string html = textOf(at("pair.html"));
+  for (const char* part : {"observed part: model to reference", "observed part: reference to model",
+                           "Both ways, observed part",
+                           "observed vertices of the reference that are not reconstructed"})
+    EXPECT_THAT(html, HasSubstr(part));
+}
+
 TEST_F(ReportPages, ARecordWithOddTypesIsReportedAsNotMeasured) {
   write("result/evaluation.json",
         R"({"schema_version":1,"command":"evaluate","surface":{"mean_mm":"1","p95_mm":null},)"

@@ -16,6 +16,7 @@ constexpr const char* kSignedMean = "surface.signed.mean_mm";
 constexpr const char* kSignedMeanOfPair = "signed.mean_mm";
 constexpr const char* kHausdorff = "surface.hausdorff.";  // plus a key of hausdorffMetrics()
 constexpr const char* kHausdorffOfPair = "hausdorff.";
+constexpr const char* kHausdorffObserved = "observed.hausdorff.";
 
 // Without ground truth.
 constexpr const char* kPsnr = "view.psnr_db";

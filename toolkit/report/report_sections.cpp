@@ -61,7 +61,10 @@ std::vector<NamedPart> distanceParts(const ReportCase& c) {
             {"model to reference, by area", "accuracy.by_area"},
             {"reference to model, each vertex", "completeness"},
             {"reference to model, by area", "completeness.by_area"},
-            {"signed, + = outside", "signed"}};
+            {"signed, + = outside", "signed"},
+            {"observed part: model to reference", "observed.accuracy"},
+            {"predicted part: model to reference", "observed.predicted"},
+            {"observed part: reference to model", "observed.completeness"}};
   return {{"all points", "surface"},
           {"visible now (observed)", "surface.observed"},
           {"not visible now (predicted)", "surface.predicted"},
@@ -76,6 +79,21 @@ ReportTable bothWaysTable(const ReportCase& c) {
   for (const Metric<HausdorffDistances>& metric : hausdorffMetrics())
     parts.push_back({metric.name, at + metric.key});
   return valueTable("Both ways", "mm", c.record, parts);
+}
+
+/// Of a comparison with an observed region.
+std::vector<ReportTable> observedTables(const ReportCase& c) {
+  std::vector<NamedPart> parts;
+  for (const Metric<HausdorffDistances>& metric : hausdorffMetrics())
+    parts.push_back({metric.name, metric_paths::kHausdorffObserved + std::string(metric.key)});
+  return {valueTable("Both ways, observed part", "mm", c.record, parts),
+          valueTable("Observed part", "share", c.record,
+                     {{"vertices of the model that are observed", "observed.test_share"},
+                      {"vertices of the model beyond the border of the reference",
+                       "observed.test_beyond_border_share"},
+                      {"vertices of the reference that are observed", "observed.reference_share"},
+                      {"observed vertices of the reference that are not reconstructed",
+                       "observed.not_reconstructed_share"}})};
 }
 
 ReportTable motionTable(const ReportCase& c) {
@@ -220,6 +238,7 @@ std::vector<ReportPart> resultParts(const ReportCase& c) {
   }
   addTable(distancesTable(c, "Distances [mm]"), parts);
   addTable(bothWaysTable(c), parts);
+  for (ReportTable& table : observedTables(c)) addTable(std::move(table), parts);
   addTable(scoresTable(c), parts);
   addTable(heldOutTable(c.record), parts);
   addTable(motionTable(c), parts);
