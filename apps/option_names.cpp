@@ -10,10 +10,13 @@ namespace {
 
 // Settings with shorter option names.
 const std::map<std::string, std::string> kShorter{
-    {"dots_per_inch", "--dpi"}, {"frames_per_second", "--fps"},  {"turn_deg", "--turn"},
-    {"each_model", "--each"},   {"map_kind", "--map"},           {"names", "--name"},
-    {"overwrite", "--force"},   {"observed_only", "--observed"}, {"planes", "--plane"},
-    {"scans", "--scan"},        {"surfaces", "--surface"},       {"taus_mm", "--tau"}};
+    {"dots_per_inch", "--dpi"},     {"frames_per_second", "--fps"},
+    {"turn_deg", "--turn"},         {"each_model", "--each"},
+    {"map_kind", "--map"},          {"names", "--name"},
+    {"overwrite", "--force"},       {"observed_only", "--observed"},
+    {"planes", "--plane"},          {"scans", "--scan"},
+    {"surfaces", "--surface"},      {"taus_mm", "--tau"},
+    {"lens_coefficients", "--lens"}};
 
 std::map<std::string, std::string> optionsOfSettings() {
   std::map<std::string, std::string> options = kShorter;

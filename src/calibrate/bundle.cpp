@@ -162,7 +162,7 @@ BundleState stepped(const BundleState& state, const Normal& normal, double dampi
 void BundleOptions::validate() const {
   require(lens_coefficients == 0 || lens_coefficients == 2 || lens_coefficients == 4 ||
               lens_coefficients == 5,
-          "lens_coefficients", lens_coefficients, "must be 0, 2, 4 or 5");
+          "`lens_coefficients=`", lens_coefficients, "must be 0, 2, 4 or 5");
   require(most_iterations >= 1, "most_iterations", most_iterations, "must be 1 or more");
 }
 

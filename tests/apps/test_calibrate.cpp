@@ -159,7 +159,7 @@ TEST_F(Calibrate, WhatCannotBeIsOneLine) {
   fails(with(4, "6x6"), 2, "by rotations of 90");
   fails(with(6, "0"), 2, "--square");
   fails(with(1, at("nowhere")), 3, "nowhere");
-  fails(words({"--lens", "3"}), 2, "lens_coefficients");
+  fails(words({"--lens", "3"}), 2, "--lens is 3");
   fails(words({"--marker", "2", "--dictionary", "none"}), 2, "4X4_50");
   fails(words({"--distances", "50,far"}), 2, "--distances");
   fails(words({"--layout", "top-bottom"}), 2, "leave RIGHT out");
