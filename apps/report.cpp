@@ -46,7 +46,7 @@ void ReportCommand::declare(ArgumentList& arguments) {
                    "result of another method for each case, in their order; repeatable");
   arguments.option("--title", "TEXT", options_.title, "of the page");
   arguments.option("--limit-mm", "N", options_.limit_mm,
-                   "end of the colour range (default: a round number above the largest P95)");
+                   "end of the colour range (default 0: a round number above the largest P95)");
   arguments.option("--seed", "N", options_.seed,
                    "of the bootstrap for confidence intervals (default 1)");
   arguments.option("--fail-if", "LIMIT", fail_if_,

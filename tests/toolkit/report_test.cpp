@@ -301,6 +301,8 @@ TEST_F(ReportPages, TwoMethodsArePairedCaseByCase) {
   uneven.versus.clear();
   uneven.names = {"one"};
   expectError<OptionError>([&] { writeReport(uneven); }, {"name"});
+  uneven.limit_mm = -5;
+  expectError<OptionError>([&] { writeReport(uneven); }, {"`limit_mm=`", "or 0 for automatic"});
 }
 
 TEST_F(Evaluation, ReportReadsWhatEvaluateAndCompareWrite) {

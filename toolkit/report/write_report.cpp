@@ -51,7 +51,8 @@ void requireEnding(const std::filesystem::path& file, const char* option,
 }  // namespace
 
 void ReportOptions::validate() const {
-  require(limit_mm >= 0 && std::isfinite(limit_mm), "`limit_mm=`", limit_mm, "must be above 0");
+  require(limit_mm >= 0 && std::isfinite(limit_mm), "`limit_mm=`", limit_mm,
+          "must be above 0, or 0 for automatic");
   require(seed >= 0, "`seed=`", seed, "must be 0 or more");
   requireChecklist(checklist);
   requireEnding(html, "`out=`", {".html", ".htm"}, "page; `pdf=` writes the same as PDF");
