@@ -241,6 +241,7 @@ TEST_F(Viewer, WrongOptionsAreNamed) {
   wrong([](ViewRequest& request) { request.colour = "errors"; }, "`reference=` or `evaluation=`");
   wrong([](ViewRequest& request) { request.colour = "blue"; }, "texture, errors, weights");
   wrong([](ViewRequest& request) { request.look = "sideways"; }, "free, scope, front");
+  wrong([](ViewRequest& request) { request.screenshot = "view.jpg"; }, "must end in .png");
   wrong([](ViewRequest& request) { request.frame = 99; }, "frames 0 to 5");
   wrong([](ViewRequest& request) { request.movie.turn_deg = 1e9; }, "`turn_deg=`");
   wrong([](ViewRequest& request) { request.size = "10x10"; }, "size");

@@ -92,7 +92,11 @@ void ViewRequest::validate() const {
     throw OptionError("`colour=` errors needs `reference=` or `evaluation=` to take errors from");
   if (!run.ct_from_run.empty() && run.ct.empty() && run.reference.empty())
     throw OptionError("`ct_from_run=` needs `ct=` or `reference=` as its target");
-  if (!screenshot.empty()) requireWritable(screenshot, overwrite);
+  if (!screenshot.empty()) {
+    if (fs::path(screenshot).extension() != ".png")
+      throw OptionError("`screenshot=` is `" + screenshot + "`, but must end in .png");
+    requireWritable(screenshot, overwrite);
+  }
   if (!movie.file.empty()) requireWritable(movie.file, overwrite);
   if (!movie.file.empty() && (width_px % 2 != 0 || height_px % 2 != 0))
     throw OptionError("`size=` is `" + size + "`, but a movie's width and height must be even");
