@@ -225,6 +225,7 @@ TEST_F(Slices, PlanesMeetAtALandmarkOrInTheModel) {
   EXPECT_THAT(textOf(at("l.svg")), HasSubstr(">reference<"));
   expectError<OptionError>([&] { centre(at("points.csv"), "apx"); }, {"did you mean `apex`"});
   expectError<OptionError>([&] { centre(at("points.csv"), ""); }, {"needs `at=`"});
+  expectError<OptionError>([&] { centre("", "apex"); }, {"`at=` is `apex`", "with `landmarks=`"});
   write("points.csv", "name,x_mm,y_mm,z_mm\napex,1,two,3\n");
   expectError<InputError>([&] { centre(at("points.csv"), "apex"); },
                           {"line 2: `two` is no coordinate"});

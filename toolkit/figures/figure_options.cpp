@@ -27,20 +27,30 @@ void requireEnding(const std::string& file) {
     throw OptionError("`out=` is `" + file + "`, but must end in .png, .pdf or .svg");
 }
 
+/// Empty unless the text has three finite numbers.
+std::optional<Eigen::Vector3d> vectorOf(const std::string& text) {
+  const auto words = wordsOf(text);
+  if (words.size() != 3) return std::nullopt;
+  Eigen::Vector3d vector;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto value = numberOf(words[i]);
+    if (!value || !std::isfinite(*value)) return std::nullopt;
+    vector[Eigen::Index(i)] = *value;
+  }
+  return vector;
+}
+
+Eigen::Vector3d parsePlace(const std::string& at) {
+  if (const auto place_mm = vectorOf(at)) return *place_mm;
+  throw OptionError("`at=` is `" + at + "`, but must be three numbers, e.g. 1,2,3, or `" + kModel +
+                    "`, or with `landmarks=` FILE the name of one");
+}
+
 }  // namespace
 
 Eigen::Vector3d parseVector(const std::string& text, const std::string& option) {
-  const auto words = wordsOf(text);
-  Eigen::Vector3d vector;
-  bool good = words.size() == 3;
-  for (std::size_t i = 0; good && i < 3; ++i) {
-    const auto value = numberOf(words[i]);
-    good = value && std::isfinite(*value);
-    if (good) vector[Eigen::Index(i)] = *value;
-  }
-  if (!good)
-    throw OptionError(option + " is `" + text + "`, but must be three numbers, e.g. 1,2,3");
-  return vector;
+  if (const auto vector = vectorOf(text)) return *vector;
+  throw OptionError(option + " is `" + text + "`, but must be three numbers, e.g. 1,2,3");
 }
 
 void FigureOptions::validate() const {
@@ -77,7 +87,7 @@ std::optional<Eigen::Vector3d> FigureOptions::namedPlace() const {
   require(landmarks.empty() || !at.empty(), "`landmarks=`", landmarks,
           "needs `at=` NAME, one of them");
   if (at.empty() || at == kModel) return std::nullopt;
-  if (landmarks.empty()) return parseVector(at, "`at=`");
+  if (landmarks.empty()) return parsePlace(at);
   const LandmarkPlaces places = readLandmarkPlaces(landmarks);
   if (const auto found = places.find(at); found != places.end()) return found->second;
   std::vector<std::string> names;
