@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "io/geometry/ply_writer.h"
 #include "support/made_run.h"
+#include "toolkit/evaluation/held_out_views.h"
 #include "toolkit/evaluation/thresholds.h"
 #include "toolkit/run/frame_clock.h"
 #include "toolkit/run/frame_outcomes.h"
@@ -57,6 +58,15 @@ TEST(EvaluateThresholds, PerCentAsksForAShare) {
   EXPECT_EQ(check("lost>10%").threshold.text(), "lost>10%");
   EXPECT_EQ(check("lost>2").path, "outcomes.lost") << "a count";
   EXPECT_THROW(parseThreshold("lost>%"), OptionError);
+}
+
+TEST(HeldOutFacts, NameTheShareOfTheFrames) {
+  HeldOutResult result;
+  result.every = 3;
+  result.views.emplace_back();
+  FactSheet facts("run");
+  addHeldOutFacts(result, facts);
+  EXPECT_NE(facts.text().find("over 1 frames (one in every 3)"), std::string::npos) << facts.text();
 }
 
 TEST(FrameOutcomes, AreCountedAndShownFrameByFrame) {

@@ -89,8 +89,8 @@ void addHeldOutFacts(const HeldOutResult& result, FactSheet& facts) {
   };
   facts.addLine("held-out views",
                 say("PSNR ", text(json["psnr_db"], 1), " dB, SSIM ", text(json["ssim"], 3),
-                    " over ", result.views.size(), " frames (every ", result.every,
-                    "th) that were not used by the run, each against the model of the previous "
+                    " over ", result.views.size(), " frames (one in every ", result.every,
+                    ") that were not used by the run, each against the model of the previous "
                     "frame; pixels as above, ",
                     text(Json(100 * json.value("judged_share", 0.0)), 1), " % of the tissue"));
   facts.addLine("  control", "image of the previous frame: PSNR " +
