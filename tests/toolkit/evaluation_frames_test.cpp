@@ -131,6 +131,9 @@ TEST_F(Evaluation, TruePosesBelongToTheFramesOfTheirTimes) {
       EXPECT_EQ(some["frames"][frame][value], whole["frames"][frame][value]) << value;
   EXPECT_TRUE(some["frames"][1]["pose_error_mm"].is_null());
   EXPECT_THAT(some["warnings"].dump(), HasSubstr("3 frames of the run have no true pose"));
+  EXPECT_EQ(whole["tracks"]["reported"], 1);
+  EXPECT_EQ(some["tracks"]["reported"], 1) << "of the frames with a true pose";
+  EXPECT_EQ(some["tracks"]["without_truth"], 0);
 }
 
 TEST_F(Evaluation, AMissingFirstTruePoseHidesNoError) {

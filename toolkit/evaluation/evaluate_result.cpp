@@ -57,15 +57,19 @@ std::vector<TrackSample> readTrueTracks(const SequenceTruth& truth) {
 std::optional<TrackErrors> judgeTracks(const JudgedRun& run, const SequenceTruth& truth,
                                        const std::vector<TrackSample>& true_samples) {
   if (run.tracks.empty() || truth.tracks.empty()) return std::nullopt;
-  const TrueTracks true_tracks = positionsOf(true_samples);
+  TrueTracks true_tracks;  // of frames with a true pose: others are left out
+  for (const auto& [key, position_mm] : positionsOf(true_samples))
+    if (truth.poses.count(key.first) > 0) true_tracks[key] = position_mm;
   UnseenTracks unseen;
   for (const TrackSample& sample : true_samples)
     if (!sample.visible) unseen.insert({sample.frame, sample.id});
   std::vector<TrackSample> tracks = readTracks(run.tracks);
-  tracks.erase(
-      std::remove_if(tracks.begin(), tracks.end(),
-                     [&](const TrackSample& sample) { return !run.isPlaced(sample.frame); }),
-      tracks.end());
+  tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
+                              [&](const TrackSample& sample) {
+                                return !run.isPlaced(sample.frame) ||
+                                       truth.poses.count(sample.frame) == 0;
+                              }),
+               tracks.end());
   std::map<int, Eigen::Isometry3d> moves;
   for (const auto& [frame, move] : truthFromRun(run, truth))
     if (run.isPlaced(frame)) moves[frame] = move;
