@@ -34,8 +34,8 @@ void bindJudges(py::module_& module) {
         return api::evaluate(run, reference, options);
       },
       "run"_a, "reference"_a, "align"_a = "none", "each_model"_a = false,
-      "reference_unit_mm"_a = 0.0, "views"_a = true, "out"_a = "", "overwrite"_a = false,
-      "progress"_a = py::none(),
+      "reference_unit_mm"_a = api::kStatedUnit, "views"_a = true, "out"_a = "",
+      "overwrite"_a = false, "progress"_a = py::none(),
       "A run against a sequence with ground truth, a mesh, or its own images. progress(done, "
       "total) "
       "may return False to stop.");
@@ -56,8 +56,9 @@ void bindJudges(py::module_& module) {
         return api::compare(reference, test,
                             {align, landmarks, reference_unit_mm, test_unit_mm, taus_mm});
       },
-      "reference"_a, "test"_a, "align"_a = "none", "landmarks"_a = "", "reference_unit_mm"_a = 0.0,
-      "test_unit_mm"_a = 0.0, "taus_mm"_a = std::vector<double>{0.5, 1, 2},
+      "reference"_a, "test"_a, "align"_a = "none", "landmarks"_a = "",
+      "reference_unit_mm"_a = api::kStatedUnit, "test_unit_mm"_a = api::kStatedUnit,
+      "taus_mm"_a = std::vector<double>{0.5, 1, 2},
       "A surface or points against a reference surface; files.");
 }
 

@@ -12,7 +12,7 @@ namespace softscope::api {
 struct ComparisonOptions {
   std::string align = "none";  // none, landmarks or icp
   std::string landmarks;       // file of point pairs
-  double reference_unit_mm = 0, test_unit_mm = 0;
+  double reference_unit_mm = kStatedUnit, test_unit_mm = kStatedUnit;
   std::vector<double> taus_mm{0.5, 1, 2};  // for precision, recall, F-score and surface Dice
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "softscope/run.h"
 
 namespace softscope::api {
+
+/// For a length of one unit of a file: what the file states, else 1 mm.
+inline constexpr double kStatedUnit = std::numeric_limits<double>::quiet_NaN();
 
 /// NaN if not measured.
 struct Distances {
@@ -31,11 +35,11 @@ struct Evaluation {
 };
 
 struct EvaluationOptions {
-  std::string align = "none";    // to a mesh: none, rigid (one for all models), icp (each model)
-  bool each_model = false;       // against a mesh: every saved model instead of the last
-  double reference_unit_mm = 0;  // of a mesh file: 1000 for metres; 0: as it states
-  bool views = true;             // render models for depth, PSNR and SSIM
-  std::string out;               // folder of evaluation.json, tables and figures; empty: none
+  std::string align = "none";  // to a mesh: none, rigid (one for all models), icp (each model)
+  bool each_model = false;     // against a mesh: every saved model instead of the last
+  double reference_unit_mm = kStatedUnit;  // of a mesh file: 1000 for metres
+  bool views = true;                       // render models for depth, PSNR and SSIM
+  std::string out;  // folder of evaluation.json, tables and figures; empty: none
   bool overwrite = false;
   std::function<bool(int done, int total)> progress;  // models; false: stop
 };

@@ -1,6 +1,7 @@
 #include "core/length_unit.h"
 
 #include <cctype>
+#include <cmath>
 
 namespace softscope {
 namespace {
@@ -18,7 +19,7 @@ std::string_view wordAt(std::string_view text, std::size_t begin) {
 }  // namespace
 
 double unitOfFileMm(double requested_mm, std::string_view header) {
-  if (requested_mm > 0) return requested_mm;
+  if (!std::isnan(requested_mm)) return requested_mm;
   constexpr std::string_view kKey = "unit ";
   for (std::size_t at = header.find(kKey); at != std::string_view::npos;
        at = header.find(kKey, at + 1)) {

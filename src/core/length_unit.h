@@ -1,6 +1,7 @@
 // src/core/length_unit.h: units of the lengths in files.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -12,8 +13,11 @@ struct LengthUnit {
   double mm = 1;  // length of the unit
 };
 
-/// `requested_mm` if it is above 0; else what the header of the file states as `unit mm`, `unit cm`
-/// or `unit m`, as `softscope export` does; else 1.
+/// Requests the unit that a file states.
+inline constexpr double kUnitOfFile = std::numeric_limits<double>::quiet_NaN();
+
+/// `requested_mm`, the length of one unit of a file; for kUnitOfFile what its header states as
+/// `unit mm`, `unit cm` or `unit m`, as `softscope export` does, else 1.
 double unitOfFileMm(double requested_mm, std::string_view header);
 
 }  // namespace softscope

@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/length_unit.h"
 #include "mesh/mesh_formats.h"
 #include "mesh/text_scanner.h"
 
@@ -107,7 +106,8 @@ void requireFinite(const TriangleMesh& mesh, const std::string& name) {
 }  // namespace
 
 void MeshReadOptions::validate() const {
-  require(unit_mm >= 0 && std::isfinite(unit_mm), "unit_mm", unit_mm, "must be above 0");
+  require(std::isnan(unit_mm) || (unit_mm > 0 && std::isfinite(unit_mm)), "unit_mm", unit_mm,
+          "must be above 0");
 }
 
 TriangleMesh parseMesh(std::string_view bytes, const std::string& name,

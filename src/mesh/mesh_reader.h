@@ -5,12 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "core/length_unit.h"
 #include "core/triangle_mesh.h"
 
 namespace softscope {
 
 struct MeshReadOptions {
-  double unit_mm = 0;  // length of one unit of the file: 1000 for metres; 0: unitOfFileMm()
+  double unit_mm = kUnitOfFile;  // length of one unit of the file: 1000 for metres
 
   /// Throws OptionError: the field, its value, the violated rule.
   void validate() const;

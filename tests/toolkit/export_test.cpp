@@ -115,7 +115,7 @@ TEST_F(ExportModel, WhatAFileStatesOfItsUnitIsRead) {
     ExportRequest centimetres = request(at("a.ply"), name);
     centimetres.unit = "cm";
     exportModel(centimetres);
-    const TriangleMesh mesh = readSurfaceOrPoints(at(name), 0);
+    const TriangleMesh mesh = readSurfaceOrPoints(at(name), kUnitOfFile);
     EXPECT_EQ(mesh.unit_mm, 10) << name;
     EXPECT_NEAR(checkMesh(mesh).area_mm2, area_mm2, 1e-3 * area_mm2) << name;
     const std::string again = std::string("mm_of_") + name + ".ply";
@@ -129,7 +129,7 @@ TEST_F(ExportModel, WhatAFileStatesOfItsUnitIsRead) {
   points.points = true;
   points.unit = "cm";
   exportModel(points);
-  const TriangleMesh read = readSurfaceOrPoints(at("points.ply"), 0);
+  const TriangleMesh read = readSurfaceOrPoints(at("points.ply"), kUnitOfFile);
   ASSERT_EQ(read.vertices_mm.size(), wave().points_mm.size());
   EXPECT_NEAR((read.vertices_mm.back() - wave().points_mm.back()).norm(), 0, 1e-4);
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/length_unit.h"
 #include "core/triangle_mesh.h"
 #include "toolkit/comparison/compare_record.h"
 #include "toolkit/comparison/surface_fit.h"
@@ -20,7 +21,7 @@ struct CompareOptions {
   std::vector<double> taus_mm{0.5, 1, 2};  // for precision, recall, F-score and surface Dice
   std::string observed;                    // file of the observed region; empty: no split
   double observed_reach_mm = 2;            // distance within which the reference is observed
-  double reference_unit_mm = 0, test_unit_mm = 0;  // 0: as the files state
+  double reference_unit_mm = kUnitOfFile, test_unit_mm = kUnitOfFile;
   std::vector<Threshold> thresholds;
   RecordPaths paths;
 

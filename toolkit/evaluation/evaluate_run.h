@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/length_unit.h"
 #include "toolkit/evaluation/depth_map_result.h"
 #include "toolkit/evaluation/evaluate_result.h"
 #include "toolkit/evaluation/thresholds.h"
@@ -21,7 +22,7 @@ struct EvaluateOptions {
   MeshAlignment alignment = MeshAlignment::kNone;  // of a mesh
   bool each_model = false;                         // for a mesh: all models instead of the last
   int frame = -1;                                  // for a mesh: model of this frame; -1: last
-  double reference_unit_mm = 0;                    // for a mesh file: 1000 for metres, 0: as stated
+  double reference_unit_mm = kUnitOfFile;          // for a mesh file: 1000 for metres
   bool views = true;                               // render each model for depth, PSNR and SSIM
   std::string map_kind, calibration, confidence;   // for maps only: DepthMapOptions
   std::vector<Threshold> thresholds;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/length_unit.h"
 #include "mesh/surface_from_points.h"
 #include "toolkit/export/export_dicom.h"
 #include "toolkit/progress.h"
@@ -11,15 +12,15 @@
 namespace softscope {
 
 struct ExportRequest {
-  std::string input;         // run, points or mesh; for .dcm also a report or an image
-  std::string out;           // file; its extension is the format, .pvd is a series of .vtp
-  std::string unit;          // mm, cm or m; empty: default of the format
-  SurfaceOptions surface;    // triangulation of points
-  DicomTexts dicom;          // of .dcm
-  int frame = -1;            // frame of a run; -1: last model
-  int every = 1;             // for a series: every n-th saved model
-  double input_unit_mm = 0;  // unit of the input; 0: as it states
-  bool points = false;       // points instead of triangles
+  std::string input;       // run, points or mesh; for .dcm also a report or an image
+  std::string out;         // file; its extension is the format, .pvd is a series of .vtp
+  std::string unit;        // mm, cm or m; empty: default of the format
+  SurfaceOptions surface;  // triangulation of points
+  DicomTexts dicom;        // of .dcm
+  int frame = -1;          // frame of a run; -1: last model
+  int every = 1;           // for a series: every n-th saved model
+  double input_unit_mm = kUnitOfFile;
+  bool points = false;  // points instead of triangles
   bool overwrite = false;
 
   bool isSeries() const;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/length_unit.h"
 #include "toolkit/figures/volume_arguments.h"
 #include "toolkit/record/record_paths.h"
 #include "vtk_views/drawing/figure_style.h"
@@ -19,7 +20,7 @@ namespace softscope {
 struct FigureOptions {
   std::vector<std::string> out;
   std::string window = "auto", at, landmarks, style = "ieee";
-  double width_mm = 0, dots_per_inch = 0, field_mm = 0, dot_reach_mm = 0.5, unit_mm = 0;
+  double width_mm = 0, dots_per_inch = 0, field_mm = 0, dot_reach_mm = 0.5, unit_mm = kUnitOfFile;
   bool neurological = false, force = false;
   VolumeArguments volume;
   RecordPaths paths;

@@ -52,7 +52,7 @@ FactSheet describePoints(const std::string& bytes, const std::string& file) {
   for (const std::string& comment : points.comments) facts.addLine("header says", comment);
   facts.addQuietly("comments", points.comments);
   const double unit_mm =
-      unitOfFileMm(0, std::string_view(bytes).substr(0, bytes.find("end_header")));
+      unitOfFileMm(kUnitOfFile, std::string_view(bytes).substr(0, bytes.find("end_header")));
   facts.addQuietly("unit_mm", unit_mm);
   if (!points.box_mm.isEmpty())
     addBox<Eigen::Vector3d>(unit_mm * points.box_mm.min(), unit_mm * points.box_mm.max(), facts);

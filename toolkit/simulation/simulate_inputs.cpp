@@ -20,7 +20,8 @@ OrganFile readOrgan(const SimulateOptions& options) {
     return {makeOrganMesh(options.simulation.organ,
                           static_cast<std::uint64_t>(options.simulation.seed)),
             {}};
-  TriangleMesh mesh = readSurfaceOrPoints(options.organ, options.organ_unit_mm);
+  TriangleMesh mesh = readSurfaceOrPoints(
+      options.organ, options.organ_unit_mm > 0 ? options.organ_unit_mm : kUnitOfFile);
   if (mesh.triangles.empty())
     throw InputError(
         shown(options.organ) +

@@ -153,7 +153,7 @@ class Evaluated : public MomentErrors {
 std::unique_ptr<MomentErrors> errorsFromReference(const fs::path& reference, const fs::path& run,
                                                   const Eigen::Isometry3d& reference_from_run) {
   if (fs::is_directory(reference)) return std::make_unique<TrueReference>(reference, run);
-  TriangleMesh mesh = readSurfaceOrPoints(reference, 0);
+  TriangleMesh mesh = readSurfaceOrPoints(reference, kUnitOfFile);
   if (mesh.empty())
     throw InputError(shown(reference) +
                      ": is a set of points, but the reference must be a surface; give a mesh, or a "

@@ -11,11 +11,11 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/error.h"
 #include "core/guarded_read.h"
-#include "core/length_unit.h"
 #include "vtk_views/files/packed_bytes.h"
 #include "vtk_views/files/vtk_errors.h"
 
@@ -82,7 +82,7 @@ TriangleMesh meshOf(vtkPolyData* data, const std::string& title, const std::stri
   addTriangles(data->GetPolys(), path, mesh);
   mesh.space = spaceOf(data, title);
   const std::string unit = textFieldOf(data, "UNIT");
-  mesh.unit_mm = unitOfFileMm(0, unit.empty() ? title : "unit " + unit);
+  mesh.unit_mm = unitOfFileMm(kUnitOfFile, unit.empty() ? title : "unit " + unit);
   return mesh;
 }
 
@@ -126,7 +126,7 @@ TriangleMesh readVtkSurface(const std::string& path, double unit_mm) {
   unpacker.takeAll(mesh.triangles);
   unpacker.takeText(mesh.space);
   unpacker.take(mesh.unit_mm);
-  if (unit_mm > 0) mesh.unit_mm = unit_mm;
+  if (!std::isnan(unit_mm)) mesh.unit_mm = unit_mm;
   for (Eigen::Vector3f& p : mesh.vertices_mm) p = (p.cast<double>() * mesh.unit_mm).cast<float>();
   return mesh;
 }
