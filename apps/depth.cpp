@@ -76,7 +76,7 @@ void DepthCommand::declare(ArgumentList& arguments) {
                    "pair, only depth.png for several)");
   arguments.flag(
       "--dense", dense_,
-      "additionally depth and its standard error for every pixel of tissue, gaps filled");
+      "additionally depth and its standard error for every pixel that no mask hides, gaps filled");
   arguments.flag("--force", force_, "overwrite existing files");
   softscope::declare(paths_, arguments);
   settings_.declare(arguments);
