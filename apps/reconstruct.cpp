@@ -1,4 +1,6 @@
 // apps/reconstruct.cpp: `softscope reconstruct`: deforming model from a stereo clip.
+#include <algorithm>
+
 #include "apps/command.h"
 #include "apps/exit_codes.h"
 #include "apps/interrupt.h"
@@ -12,6 +14,7 @@
 namespace softscope {
 namespace {
 
+constexpr const char* kResume = "--resume";
 const char* const kReconstructDetails =
     "Writes model.ply (the last model: mm, world = left camera at the first frame),\n"
     "models/NNNNNN.ply and .vtp with models.pvd for ParaView, trajectory.txt (TUM lines,\n"
@@ -72,7 +75,7 @@ void ReconstructCommand::declare(ArgumentList& arguments) {
                  "use matches for the pose, but not for the warp");
   arguments.option("--checkpoint-every", "N", options_.checkpoint_every,
                    "update all files every N frames (default 100)");
-  arguments.flag("--resume", options_.resume, "continue an interrupted run");
+  arguments.flag(kResume, options_.resume, "continue an interrupted run");
   arguments.flag("--force", options_.overwrite, "replace an earlier run");
   arguments.option("--fail-if", "LIMIT", fail_if_,
                    "e.g. lost>10%: then exit code 1, the run is kept; repeatable");
@@ -93,6 +96,12 @@ RunOptions ReconstructCommand::readSettings() const {
   return options;
 }
 
+/// Of a call that makes the run at once: a resumed run has the same record.
+std::vector<std::string> wordsOfTheWhole(std::vector<std::string> words) {
+  words.erase(std::remove(words.begin(), words.end(), kResume), words.end());
+  return words;
+}
+
 int ReconstructCommand::run() {
   const InterruptGuard interrupt;
   for (const std::string& text : fail_if_) options_.thresholds.push_back(parseThreshold(text));
@@ -102,7 +111,7 @@ int ReconstructCommand::run() {
   options_.name = source_.left;
   options_.out = out_;
   options_.tracks = track_;
-  options_.command_line = words;
+  options_.command_line = wordsOfTheWhole(words);
   WorkProgress progress("reconstruct", progressStyle(common.quiet), interrupt);
   const ReconstructedRun made = reconstructSequence(options_, listenerOf(progress));
   if (common.json)
