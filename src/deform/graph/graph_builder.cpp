@@ -18,6 +18,7 @@ namespace {
 
 using Positions = std::vector<Eigen::Vector3f>;
 using Bindings = std::vector<PointBinding>;
+using PointInCell = std::pair<int, int>;
 
 constexpr double kReachesOfChange = 2;  // nothing changes farther from unbound points
 
@@ -115,7 +116,6 @@ class Growth {
          const std::vector<int>& unbound, Bindings* bindings, WarpGraph* graph)
       : options_(options),
         positions_mm_(positions_mm),
-        unbound_(unbound),
         bindings_(*bindings),
         graph_(*graph),
         region_(positions_mm, unbound, kReachesOfChange * NodeReach::reachMm(options),
@@ -127,6 +127,9 @@ class Growth {
       const Eigen::Vector3f position_mm = graph_.positions_mm[j].cast<float>();
       if (region_.contains(position_mm)) waiting_.push_back({static_cast<int>(j), position_mm});
     }
+    for (const int point : unbound)
+      if (const int cell = cells_.cellAt(positions_mm[point]); cell >= 0)
+        unbound_.emplace_back(point, cell);
   }
 
   GraphGrowth run() {
@@ -152,17 +155,14 @@ class Growth {
   std::vector<int> cellsOfUnbound() const {
     std::vector<char> is_found(static_cast<std::size_t>(cells_.size()), 0);
     std::vector<int> found;
-    for (const int point : unbound_) {
-      const int cell = cells_.cellAt(positions_mm_[point]);
-      if (cell >= 0 && !std::exchange(is_found[cell], 1)) found.push_back(cell);
-    }
+    for (const auto& [point, cell] : unbound_)
+      if (!std::exchange(is_found[cell], 1)) found.push_back(cell);
     return found;
   }
 
   /// Walks are most of the work: only nodes that can reach one of the places walk.
   void spreadNodesWithin(double reaches, const Positions& places_mm) {
-    constexpr double kSurely = 1.001;
-    const double distance_mm = kSurely * reaches * NodeReach::reachMm(options_);
+    const double distance_mm = reaches * NodeReach::surelyBeyondMm(options_);
     const auto limit_mm2 = static_cast<float>(distance_mm * distance_mm);
     const auto stays = [&](const NodeReach::Start& node) {
       return std::none_of(places_mm.begin(), places_mm.end(), [&](const Eigen::Vector3f& place_mm) {
@@ -188,9 +188,8 @@ class Growth {
   /// In the order of the points: row by row of the image.
   void addNodes() {
     graph_.since_reference.resize(graph_.size());
-    for (const int point : unbound_) {
-      const int cell = cells_.cellAt(positions_mm_[point]);
-      if (cell < 0 || reach_.covered(cell)) continue;
+    for (const auto& [point, cell] : unbound_) {
+      if (reach_.covered(cell)) continue;
       const int node = static_cast<int>(graph_.size());
       const Eigen::Vector3f position_mm = positions_mm_[cells_.representative(cell)];
       // The cells that the new node reaches need all of their nodes.
@@ -204,11 +203,8 @@ class Growth {
   }
 
   /// Those without a binding and those near a new node, ascending, with their cells.
-  std::vector<std::pair<int, int>> pointsToBind() const {
-    std::vector<std::pair<int, int>> to_bind;
-    for (const int point : unbound_)
-      if (const int cell = cells_.cellAt(positions_mm_[point]); cell >= 0)
-        to_bind.emplace_back(point, cell);
+  std::vector<PointInCell> pointsToBind() const {
+    std::vector<PointInCell> to_bind = unbound_;
     for (int cell = 0; cell < cells_.size(); ++cell)
       if (near_new_node_[cell])
         cells_.visitPoints(cell, [&](int point) {
@@ -219,7 +215,7 @@ class Growth {
   }
 
   void bindPoints() {
-    const std::vector<std::pair<int, int>> to_bind = pointsToBind();
+    const std::vector<PointInCell> to_bind = pointsToBind();
     std::vector<Carriers> carriers(to_bind.size());
     parallelRanges(static_cast<int>(to_bind.size()), kPointsPerTask / 8, [&](int begin, int end) {
       CarrierFinder finder(reach_, graph_, options_.node_spacing_mm);
@@ -238,11 +234,11 @@ class Growth {
 
   GraphOptions options_;
   const Positions& positions_mm_;
-  const std::vector<int>& unbound_;
   Bindings& bindings_;
   WarpGraph& graph_;
   SurfaceRegion region_;
   SurfaceCells cells_;
+  std::vector<PointInCell> unbound_;  // that are in one
   NodeReach reach_;
   std::vector<NodeReach::Start> waiting_;  // known nodes of the region that did not walk yet
   std::vector<char> near_new_node_;

@@ -10,7 +10,6 @@ namespace softscope {
 namespace {
 
 constexpr int kWalksPerTask = 8;
-constexpr float kSurely = 1.001f;  // distances are rounded
 
 }  // namespace
 
@@ -32,10 +31,9 @@ void NodeReach::list(const std::vector<int>& cells) {
     is_added[cell] = true;
     box_mm.extend(cells_.centre(cell));
   }
-  const auto reach_mm = static_cast<float>(reachMm(options_));
+  const auto beyond_mm = static_cast<float>(surelyBeyondMm(options_));
   for (const Walk& walk : walks_)
-    if (box_mm.exteriorDistance(walk.start.position_mm) <= kSurely * reach_mm)
-      enterWalk(walk, is_added);
+    if (box_mm.exteriorDistance(walk.start.position_mm) <= beyond_mm) enterWalk(walk, is_added);
 }
 
 /// Walks are independent.

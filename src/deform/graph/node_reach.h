@@ -27,6 +27,8 @@ class NodeReach {
 
   /// Maximum distance of a point from its nodes, mm.
   static double reachMm(const GraphOptions& options) { return 2.5 * options.node_spacing_mm; }
+  /// Distances are rounded: what is farther is surely not reached.
+  static double surelyBeyondMm(const GraphOptions& options) { return 1.001 * reachMm(options); }
 
   /// Node with the start of its walk.
   struct Start {
