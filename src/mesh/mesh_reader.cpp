@@ -116,8 +116,7 @@ TriangleMesh parseMesh(std::string_view bytes, const std::string& name,
   ParsedMesh parsed = parse(bytes, name);
   TriangleMesh& mesh = parsed.mesh;
   mesh.unit_mm = unitOfFileMm(options.unit_mm, parsed.comments);
-  if (mesh.unit_mm != 1)
-    for (Eigen::Vector3f& v : mesh.vertices_mm) v = (v.cast<double>() * mesh.unit_mm).cast<float>();
+  toMillimetres(mesh.unit_mm, &mesh.vertices_mm);
   requireTriangles(mesh, name);
   requireIndices(mesh, name);
   requireFinite(mesh, name);

@@ -2,7 +2,6 @@
 #include "toolkit/comparison/compare_inputs.h"
 
 #include "core/error.h"
-#include "core/length_unit.h"
 #include "io/files/file_bytes.h"
 #include "io/text/message.h"
 #include "mesh/mesh_reader.h"
@@ -23,13 +22,10 @@ std::string spaceOf(std::string_view header) {
 
 TriangleMesh pointsFrom(const std::string& bytes, const std::string& name, double unit_mm) {
   TriangleMesh points;
-  ModelFile file = parseModel(bytes, name);
+  ModelFile file = parseModel(bytes, name, unit_mm);
   points.vertices_mm = std::move(file.model.positions_mm);
-  const std::string_view header = std::string_view(bytes).substr(0, bytes.find("end_header"));
-  points.unit_mm = unitOfFileMm(unit_mm, header);
-  for (Eigen::Vector3f& p : points.vertices_mm)
-    p = (p.cast<double>() * points.unit_mm).cast<float>();
-  points.space = spaceOf(header);
+  points.unit_mm = file.unit_mm;
+  points.space = spaceOf(std::string_view(bytes).substr(0, bytes.find("end_header")));
   return points;
 }
 

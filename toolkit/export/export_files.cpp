@@ -49,15 +49,12 @@ std::string colourKeeping(ModelFormat format) {
 }
 
 LengthUnit unitOf(const std::string& name, ModelFormat format) {
-  static const std::map<std::string, LengthUnit> kUnits{
-      {"mm", {"mm", 1}}, {"cm", {"cm", 10}}, {"m", {"m", 1000}}};
   const bool gltf = format == ModelFormat::kGlb || format == ModelFormat::kGltf;
-  const auto found = kUnits.find(name.empty() ? (gltf ? "m" : "mm") : name);
-  if (found == kUnits.end())
-    throw OptionError("`unit=` is `" + name + "`, but must be mm, cm or m");
-  if (gltf && found->first != "m")
+  const auto unit = lengthUnitNamed(name.empty() ? (gltf ? "m" : "mm") : name);
+  if (!unit) throw OptionError("`unit=` is `" + name + "`, but must be mm, cm or m");
+  if (gltf && unit->name != "m")
     throw OptionError("`unit=` is " + name + ", but glTF is in metres by its standard; omit it");
-  return found->second;
+  return *unit;
 }
 
 std::string modelBytes(const ModelSurface& surface, ModelFormat format, const LengthUnit& unit) {

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "core/length_unit.h"
 #include "io/files/file_bytes.h"
 #include "io/text/message.h"
 #include "mesh/mesh_reader.h"
@@ -35,11 +34,8 @@ void readRemarks(std::string_view bytes, ModelSurface& surface) {
 }
 
 ModelSurface pointsOf(std::string_view bytes, const std::string& name, double unit_mm) {
-  ModelFile file = parseModel(bytes, name);
+  ModelFile file = parseModel(bytes, name, unit_mm);
   ModelSurface surface;
-  const double point_unit_mm = unitOfFileMm(unit_mm, bytes.substr(0, bytes.find("end_header")));
-  for (Eigen::Vector3f& p : file.model.positions_mm)
-    p = (p.cast<double>() * point_unit_mm).cast<float>();
   surface.vertices.points_mm = std::move(file.model.positions_mm);
   if (file.with_normals) surface.vertices.normals = std::move(file.model.normals);
   if (file.coloured) surface.vertices.colours = std::move(file.model.colours);

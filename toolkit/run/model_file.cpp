@@ -66,7 +66,7 @@ void requirePlausible(const Eigen::Vector3f& point_mm, std::size_t index, const 
 
 }  // namespace
 
-ModelFile parseModel(std::string_view bytes, const std::string& name) {
+ModelFile parseModel(std::string_view bytes, const std::string& name, double unit_mm) {
   if (bytes.substr(0, 4) != "ply\n" && bytes.substr(0, 4) != "ply\r")
     throw InputError(name + ": is no PLY file; give a model that softscope reconstruct wrote");
   const PlyHeader header = parsePlyHeader(bytes, name);  // promises no more than there is
@@ -102,6 +102,8 @@ ModelFile parseModel(std::string_view bytes, const std::string& name) {
     if (sigma) std::memcpy(&file.sigmas_mm[i], at + *sigma, sizeof(float));
     model.add(point_mm, direction, looks, sureness);
   }
+  file.unit_mm = unitOfFileMm(unit_mm, bytes.substr(0, header.bytes));
+  toMillimetres(file.unit_mm, &model.positions_mm);
   return file;
 }
 

@@ -127,7 +127,7 @@ TriangleMesh readVtkSurface(const std::string& path, double unit_mm) {
   unpacker.takeText(mesh.space);
   unpacker.take(mesh.unit_mm);
   if (!std::isnan(unit_mm)) mesh.unit_mm = unit_mm;
-  for (Eigen::Vector3f& p : mesh.vertices_mm) p = (p.cast<double>() * mesh.unit_mm).cast<float>();
+  toMillimetres(mesh.unit_mm, &mesh.vertices_mm);
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/length_unit.h"
 #include "io/calibrations/calibration_check.h"
 #include "io/calibrations/calibration_files.h"
 #include "io/calibrations/calibration_forms.h"
@@ -21,9 +22,7 @@ namespace fs = std::filesystem;
 constexpr double kLongestSidePx = 100000;
 
 double millimetresPer(const std::string& unit, const std::string& name) {
-  if (unit == "mm") return 1;
-  if (unit == "cm") return 10;
-  if (unit == "m") return 1000;
+  if (const auto known = lengthUnitNamed(unit)) return known->mm;
   throw InputError(say(name, ": unit is ", excerpt(unit), ", but mm, cm or m is expected."));
 }
 
