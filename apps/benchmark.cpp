@@ -22,6 +22,7 @@
 namespace softscope {
 namespace {
 
+constexpr const char* kNames = "stir2026, stir, surgt, scared, servct, stereomis or c3vd";
 const char* const kBenchmarkDetails =
     "NAME: stir2026, stir, surgt, scared, servct, stereomis or c3vd. DATA: a clip in its original\n"
     "layout, or a folder of clips. Each clip is run in its own process; a complete clip is not\n"
@@ -42,8 +43,7 @@ class BenchmarkCommand : public Command {
     return "softscope benchmark stir2026 STIR2026/val --out stir_val";
   }
   void declare(ArgumentList& arguments) override {
-    arguments.positional("NAME", benchmark_,
-                         "stir2026, stir, surgt, scared, servct, stereomis or c3vd", true);
+    arguments.positional("NAME", benchmark_, kNames, true);
     arguments.positional("DATA", data_, "a clip, or a folder of clips", true);
     arguments.option("--out", "DIR", out_, "folder for runs and results", true);
     arguments.option("--set", "KEY=VALUE", settings_,
@@ -101,7 +101,7 @@ int BenchmarkCommand::run() {
   const std::vector<std::string> known{"stir2026", "stir",      "surgt", "scared",
                                        "servct",   "stereomis", "c3vd"};
   require(std::find(known.begin(), known.end(), benchmark_) != known.end(), "NAME", benchmark_,
-          "must be stir2026, stir, surgt, scared, servct, stereomis or c3vd");
+          std::string("must be ") + kNames);
   require(jobs_ >= 1, "--jobs", jobs_, "must be 1 or more");
   if (isThere(out_) && !isFolder(out_))
     throw OptionError("--out " + out_ + ": is a file, but must be a new or existing folder");

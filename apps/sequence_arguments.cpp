@@ -32,10 +32,7 @@ SequencePaths SequenceArguments::paths(const std::string& command, bool calibrat
     paths.right = right;
   }
   if (!calibration.empty()) paths.calibration = calibration;
-  if (!mask.empty()) {
-    paths.mask = mask;
-    paths.tissue_masks = false;
-  }
+  if (!mask.empty()) paths.setMask(mask);
   return paths;
 }
 

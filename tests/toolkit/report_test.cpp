@@ -305,6 +305,17 @@ TEST_F(ReportPages, TwoMethodsArePairedCaseByCase) {
   expectError<OptionError>([&] { writeReport(uneven); }, {"`limit_mm=`", "or 0 for automatic"});
 }
 
+/// The page of a comparison that is written to the folder.
+std::string reportOf(const CompareOptions& options, const std::string& folder) {
+  const FileComparison pair = compareFiles(options);
+  CompareOutputs(folder, false).write(pair.result, pair.reference, pair.test, {}, pair.record);
+  ReportOptions report;
+  report.cases = {folder};
+  report.html = folder + ".html";
+  writeReport(report);
+  return textOf(report.html);
+}
+
 TEST_F(Evaluation, ReportReadsWhatEvaluateAndCompareWrite) {
   EvaluateOptions undrawn = options();
   undrawn.views = false;
@@ -319,26 +330,15 @@ TEST_F(Evaluation, ReportReadsWhatEvaluateAndCompareWrite) {
   CompareOptions same;
   same.reference = same.test = at("truth/groundtruth/mesh/000000.ply");
   same.fit.closest_points = true;
-  const FileComparison pair = compareFiles(same);
-  CompareOutputs(at("pair"), false).write(pair.result, pair.reference, pair.test, {}, pair.record);
-  ReportOptions of_pair;
-  of_pair.cases = {at("pair")};
-  of_pair.html = at("pair.html");
-  writeReport(of_pair);
-  EXPECT_THAT(textOf(at("pair.html")), HasSubstr("before the alignment"));
-  EXPECT_THAT(textOf(at("pair.html")), HasSubstr("\"triangles\""));
+  const std::string html = reportOf(same, at("pair"));
+  EXPECT_THAT(html, HasSubstr("before the alignment"));
+  EXPECT_THAT(html, HasSubstr("\"triangles\""));
 }
 
 TEST_F(Evaluation, TheReportOfAComparisonHasItsObservedPart) {
   CompareOptions same;
   same.reference = same.test = same.observed = at("truth/groundtruth/mesh/000000.ply");
-  const FileComparison pair = compareFiles(same);
-  CompareOutputs(at("pair"), false).write(pair.result, pair.reference, pair.test, {}, pair.record);
-  ReportOptions of_pair;
-  of_pair.cases = {at("pair")};
-  of_pair.html = at("pair.html");
-  writeReport(of_pair);
-  const std::string html = textOf(at("pair.html"));
+  const std::string html = reportOf(same, at("pair"));
   for (const char* part : {"observed part: model to reference", "observed part: reference to model",
                            "Both ways, observed part",
                            "observed vertices of the reference that are not reconstructed"})

@@ -63,10 +63,7 @@ SequencePaths findSequence(const fs::path& folder) {
   if (!is_own || isFile(folder / "calib.json")) {  // name in STIR; its videos may have our names
     if (const auto clip = recogniseDataset(folder)) {
       SequencePaths shipped = clip->paths;
-      if (!paths.mask.empty()) {
-        shipped.mask = paths.mask;
-        shipped.tissue_masks = false;
-      }
+      if (!paths.mask.empty()) shipped.setMask(paths.mask);
       shipped.timestamps = paths.timestamps;
       return shipped;
     }

@@ -15,8 +15,12 @@ struct SequencePaths {
   std::filesystem::path calibration;  // file, or folder with a calibration
   std::filesystem::path mask;         // folder or image; empty = none
   bool tissue_masks = false;          // mask is a folder as in io/sequences/tissue_masks.h
-  std::filesystem::path depth;        // folder or file; empty = none
-  std::filesystem::path timestamps;   // file; empty = none
+  void setMask(const std::filesystem::path& given) {
+    mask = given;
+    tissue_masks = false;
+  }
+  std::filesystem::path depth;       // folder or file; empty = none
+  std::filesystem::path timestamps;  // file; empty = none
   // For data sets whose folders contain other files, or views
   // with missing images: the paired files, equally many of each.
   // left, right and depth are then the folders in messages.
