@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/error.h"
 #include "core/image.h"
 #include "cuda/device/arena.h"
 #include "cuda/stereo/stereo_dense.h"
 #include "cuda/stereo/stereo_filter.h"
+#include "cuda/stereo/stereo_fringes.h"
 #include "cuda/stereo/stereo_ignored.h"
 #include "cuda/stereo/stereo_mixed.h"
 #include "cuda/stereo/stereo_prior.h"
@@ -210,5 +212,15 @@ struct StereoLayout {
   View<float> disparity, sigma, depth, depth_sigma;
   View<NormalPixel> normals;
 };
+
+/// Throws OptionError for options without GPU version.
+inline void requireDeviceLimits(const StereoOptions& options, int width_px) {
+  require(options.method == "elas", "stereo.method", options.method, "only elas runs on the GPU");
+  require(width_px <= PriorRowKernel::kWidest, "image width", width_px,
+          "the GPU takes at most 8192 pixels");
+  require(options.smoothing.reach_blocks <= PatchWindow::kWidestReach,
+          "stereo.smoothing.reach_blocks", options.smoothing.reach_blocks,
+          "the GPU takes at most 7");
+}
 
 }  // namespace softscope::cuda

@@ -97,6 +97,39 @@ SOFTSCOPE_FORMULA bool isAtRim(float disparity, float least_rim) {
 /// Such a pixel may be a step off.
 SOFTSCOPE_FORMULA float sigmaAtRim(float sigma) { return sigma < kRimStepPx ? kRimStepPx : sigma; }
 
+constexpr int kFringeReachPx = 8;            // of windows, from what they do not measure
+constexpr int kWithinPx = 9, kBeyondPx = 4;  // clear of the fringe on both sides
+constexpr float kFringeContrast = 0.2f;      // share of the brightness by which two surfaces differ
+/// Whether a measured pixel looks like the unmeasured ones beside it, in its row or column, and not
+/// like the measured ones on its other side. disparityAt(x, y) and grayAt(x, y) are relative to the
+/// pixel, NaN outside.
+template <class DisparityAt, class GrayAt>
+SOFTSCOPE_FORMULA bool isFringe(const DisparityAt& disparityAt, const GrayAt& grayAt) {
+  for (int side = 0; side < 4; ++side) {
+    const int along = side % 2 == 0 ? 1 : -1, x = side < 2 ? along : 0, y = side < 2 ? 0 : along;
+    int end = 1;
+    while (end <= kFringeReachPx && isNumber(disparityAt(-end * x, -end * y))) ++end;
+    if (end > kFringeReachPx || !isNumber(disparityAt(kWithinPx * x, kWithinPx * y))) continue;
+    const int beyond = end + kBeyondPx;
+    const float here = grayAt(0, 0), within = grayAt(kWithinPx * x, kWithinPx * y),
+                out = grayAt(-beyond * x, -beyond * y);
+    if (absoluteOf(out - within) > kFringeContrast * (out > within ? out : within) &&
+        2 * absoluteOf(here - out) < absoluteOf(here - within))
+      return true;
+  }
+  return false;
+}
+
+/// Mean of the 3 x 3 pixels around (u, v), the first and last rows and columns repeated.
+template <class PixelAt>
+SOFTSCOPE_FORMULA float meanAround(int u, int v, int width, int height, const PixelAt& pixelAt) {
+  const int left = u > 0 ? u - 1 : 0, right = u + 1 < width ? u + 1 : u;
+  const int above = v > 0 ? v - 1 : 0, below = v + 1 < height ? v + 1 : v;
+  int sum = 0;
+  for (const int y : {above, v, below}) sum += pixelAt(left, y) + pixelAt(u, y) + pixelAt(right, y);
+  return static_cast<float>(sum) / 9;
+}
+
 constexpr float kOneSurfacePx = 1.5f;  // four pixels with larger differences are on two surfaces
 
 /// Position of a pixel of the full size in the half size.

@@ -10,6 +10,7 @@
 #include "stereo/matching/stage_clock.h"
 #include "stereo/matching/support_points.h"
 #include "stereo/refinement/disparity_filter.h"
+#include "stereo/refinement/fringes.h"
 #include "stereo/refinement/patch_smoothing.h"
 #include "stereo/refinement/pyramid.h"
 #include "stereo/refinement/rims.h"
@@ -106,7 +107,9 @@ DisparityMap ElasMatcher::match(const GrayImage& left_image, const GrayImage& ri
   smoothByPatches(options_.smoothing, options_.refinement, map);
   clock.lap("smooth");
   doubtRims(&map);
+  doubtFringes(views.left, &map);
   erodeEdges(map, options_.erode_edges_px, options_.edge_step_px, options_.border_px);
+  removeSpeckles(map, options_.elas.speckle_size_px, ElasOptions::speckle_step_px);
   clock.lap("erode");
   times_ = clock.laps();
   return map;
