@@ -14,11 +14,13 @@
 #include "io/text/text_lines.h"
 #include "pipeline/frame/frame_depth.h"
 #include "stereo/rectification/rectifier.h"
+#include "stereo/rectification/rolled_rows.h"
 #include "stereo/rectification/row_meter.h"
 
 namespace softscope {
 namespace {
 
+constexpr double kDoubtfulYawMrad = 10;
 constexpr int kUnknowns = 4;      // pitch, roll, yaw, scale
 constexpr int kRobustRounds = 6;  // iterations of reweighting
 constexpr double kTukeyPx = 1.5;  // rejection limit for a match
@@ -164,6 +166,7 @@ ClipFrames readClipFrames(const SequencePaths& clip, const SequenceOptions& sequ
   const Rectifier rectifier(out.calibration);
   const int count = reader.frameCount(), every = (count - 1) / options.frames + 1;
   const int disparity_px = std::min(options.disparity_max_px, rectifier.rig().left.width_px / 2);
+  RowPlane rolled;
   for (int i = 0; auto result = reader.next(); ++i) {
     if (!reportProgress(progress, i, count)) {
       out.stopped = true;
@@ -174,8 +177,10 @@ ClipFrames readClipFrames(const SequencePaths& clip, const SequenceOptions& sequ
       throw InputError("the clip has no right view, but rows of both are compared.");
     const StereoPair rectified = rectifier.rectify(result->frame.pair);
     const Mask ignored = rectifier.outside().left;
-    RowMatches matches = RowMeter(toGray(rectified.left), disparity_px, ignored)
-                             .match(toGray(rectified.right), rectifier.outside().right);
+    RowMeter meter(toGray(rectified.left), disparity_px, ignored);
+    const GrayImage right = toGray(rectified.right);
+    if (out.matches.empty()) rolled = findRolledRows(meter, right);
+    RowMatches matches = meter.match(right, rectifier.outside().right, rolled);
     if (static_cast<int>(matches.size()) < RowAlignment::kFewestMatches) continue;
     out.matches.push_back(std::move(matches));
     if (static_cast<int>(out.kept.size()) < options.depth_frames)
@@ -219,6 +224,12 @@ void addDoubts(RefinedCalibration* refined) {
                                   refined->scale_percent.value,
                                   " % against the left ones: the focal lengths do not fit each "
                                   "other. Calibrate with a board."));
+  const Interval& yaw = refined->yaw_mrad.interval;
+  if (yaw.low > kDoubtfulYawMrad || yaw.high < -kDoubtfulYawMrad)
+    refined->doubts.push_back(say("the rows fan out as if the right camera were turned by ",
+                                  refined->yaw_mrad.value,
+                                  " mrad sideways against the calibration, which rows alone can't "
+                                  "correct: depth is wrong then. Calibrate with a board."));
 }
 
 std::string withInterval(const RefinedValue& value, const std::string& unit) {

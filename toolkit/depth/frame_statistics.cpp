@@ -90,6 +90,10 @@ std::string rowWarning(const DepthResult& measured) {
   std::string text = "rows differ by " + fixed(rows.mean_row_difference_px, 2) +
                      " px on average after rectification, but " +
                      fixed(RowAlignment::kWarnAbovePx, 1) + " px is the most that matches well";
+  if (rows.agreeing_share < RowAlignment::kByChance)
+    return text + ", and of the matches only " + fixed(100 * rows.agreeing_share, 0) +
+           " % agree on the difference, as by chance: depth is not reliable. Do images and "
+           "calibration belong together?";
   if (measured.rows_aligned)
     return text + "; removed, " + fixed(rows.residual_px, 2) +
            " px remain. Recalibrate if possible";

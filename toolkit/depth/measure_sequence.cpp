@@ -49,7 +49,7 @@ class SequenceMeasurement {
   MeasuredSequence measure();
 
  private:
-  RowPlane relateViews();
+  ViewRelation relateViews();
   void requireFree(const DepthOutputs& outputs, int frames) const;
   DepthEstimator estimatorFor(const SequenceReader& reader) const;
   void measureAll(SequenceReader& reader, DepthEstimator& estimator, const DepthOutputs& outputs,
@@ -69,12 +69,12 @@ class SequenceMeasurement {
 };
 
 /// As in reconstruct, for more than one pair with stereo depth.
-RowPlane SequenceMeasurement::relateViews() {
+ViewRelation SequenceMeasurement::relateViews() {
   DepthOptions& settings = options_.settings;
-  const ViewRelation views =
+  ViewRelation views =
       softscope::relateViews(options_.sequence, settings.measurement, settings.sequence);
-  if (!views.warning.empty()) listener_.warn(views.warning);
-  return views.rows;
+  for (const std::string& warning : views.warnings) listener_.warn(warning);
+  return views;
 }
 
 void SequenceMeasurement::requireFree(const DepthOutputs& outputs, int frames) const {
@@ -99,9 +99,9 @@ DepthEstimator SequenceMeasurement::estimatorFor(const SequenceReader& reader) c
 MeasuredSequence SequenceMeasurement::measure() {
   options_.settings.validate();
   options_.settings.sequence.uncalibrated = options_.uncalibrated();
-  const RowPlane rows = relateViews();
+  const ViewRelation views = relateViews();
   SequenceReader reader(options_.sequence, options_.settings.sequence);
-  reader.expectRows(rows);
+  reader.expectRows(views.rows);
   for (const std::string& warning : reader.calibration().warnings) listener_.warn(warning);
   options_.numbered = options_.numbered || reader.totalCount() > 1;
   DepthOutputKinds kinds = options_.kinds            ? *options_.kinds
@@ -116,6 +116,7 @@ MeasuredSequence SequenceMeasurement::measure() {
     options_.inputs["stereo_model"] = model;
 
   DepthRecord record(options_.inputs, reader.calibration(), estimator, options_.raw_left);
+  for (const std::string& warning : views.warnings) record.addWarning(warning);
   record.addSettings(settingsOf(options_.settings).list());
   measureAll(reader, estimator, outputs, record);
   if (record.goodFrames() == 0 && !interrupted_)

@@ -55,7 +55,8 @@ int Sequence::frameCount() const { return impl_->reader.frameCount(); }
 
 std::vector<std::string> Sequence::warnings() const {
   std::vector<std::string> all = impl_->reader.calibration().warnings;
-  if (!impl_->views.warning.empty()) all.insert(all.begin(), impl_->views.warning);
+  const std::vector<std::string>& of_views = impl_->views.warnings;
+  all.insert(all.begin(), of_views.begin(), of_views.end());
   return all;
 }
 

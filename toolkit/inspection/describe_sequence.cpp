@@ -150,7 +150,7 @@ void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool c
             "width_px", left.width_px);
   facts.addQuietly("height_px", left.height_px);
   if (!paths.right.empty()) facts.addQuietly("right_offset", options.rightOffset());
-  if (!views.warning.empty()) facts.warn(views.warning);
+  for (const std::string& warning : views.warnings) facts.warn(warning);
   addCalibration(reader.calibration(), "calibration", facts);
   addRows(first->frame, reader.calibration(), facts);
   if (check_all) checkFrames(reader, facts);

@@ -117,7 +117,7 @@ ReconstructedRun SequenceRun::run() {
                    options_.resume);
   const ReconstructionOptions& method = options_.settings.method;
   const ViewRelation views = relateViews(options_.sequence, method.depth, sequence);
-  if (!views.warning.empty()) listener_.warn(views.warning);
+  for (const std::string& warning : views.warnings) listener_.warn(warning);
   const Json inputs = inputsJson(options_.sequence, method.depth.stereo.model, options_.tracks);
   const SettingsBinder binder = settingsOf(options_.settings);
   const std::string digest = digestOf(inputs, binder.list(), sequence.frames);
@@ -137,6 +137,7 @@ ReconstructedRun SequenceRun::run() {
   reconstructor.track(seedsOf(tracked));
   folder.tellCamera(reconstructor.backend().rig().left);
   RunRecord record(inputs, reader.calibration(), reconstructor.backend(), binder.list());
+  for (const std::string& warning : views.warnings) record.addWarning(warning);
   if (!options_.command_line.empty()) record.set("command_line", options_.command_line);
   if (sequence.frames.hold_out_every > 0) record.set(kHoldOutKey, sequence.frames.hold_out_every);
   checkThresholds(options_.thresholds, record.json(), kOutcomes);  // reports errors before the work

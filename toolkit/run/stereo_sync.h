@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/row_plane.h"
 #include "io/sequences/sequence_options.h"
@@ -11,8 +12,8 @@
 namespace softscope {
 
 struct ViewRelation {
-  RowPlane rows;        // of the rectified views, common to all frames
-  std::string warning;  // if the views are not synchronous
+  RowPlane rows;                      // of the rectified views, common to all frames
+  std::vector<std::string> warnings;  // views are not synchronous; rows do not correspond
 };
 
 /// For two views, unless depth comes from the files of the sequence: estimates rows, and for

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/mask_morphology.h"
 #include "stereo/rectification/row_meter.h"
 #include "stereo/rectification/row_resampling.h"
 
@@ -43,14 +42,6 @@ AlignedPair grayPair(StereoPair rectified, const ViewMasks& ignored) {
   return aligned;
 }
 
-/// Masked where a masked pixel contributes to the moved image.
-Mask moveMask(const Mask& mask, const RowAlignment& alignment) {
-  if (mask.empty()) return {};
-  Mask marks = dilated(mask, 1);  // the cubic weights of farther rows are small and negative
-  for (std::uint8_t& value : marks.values) value = value == 0 ? 0 : 255;
-  return moveRows(marks, alignment);
-}
-
 }  // namespace
 
 RowAlignment measureRowAlignment(const GrayImage& left, const GrayImage& right,
@@ -81,14 +72,14 @@ AlignedPair alignRows(StereoPair rectified, int disparity_max_px, const ViewMask
   RowAlignment whole = aligned.before;
   for (int pass = 0; pass < kPasses; ++pass) {
     const RowAlignment rest =
-        meter.measure(moveRows(aligned.right_gray, whole), moveMask(ignored.right, whole),
+        meter.measure(moveRows(aligned.right_gray, whole), moveMaskRows(ignored.right, whole),
                       remainderOf(expected, whole));
     if (!rest.known()) break;
     for (std::size_t k = 0; k < whole.model.size(); ++k) whole.model[k] += rest.model[k];
   }
   aligned.pair.right = removeRowError(aligned.pair.right, whole);
   aligned.right_gray = toGray(aligned.pair.right);
-  aligned.ignored.right = moveMask(ignored.right, whole);
+  aligned.ignored.right = moveMaskRows(ignored.right, whole);
   aligned.removed = true;
   aligned.roll_rad = whole.tilt_px_per_px();
   return aligned;

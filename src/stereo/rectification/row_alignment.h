@@ -17,6 +17,7 @@ struct RowAlignment {
   int matches = 0;                    // pixels that agree with the model
   double mean_row_difference_px = 0;  // mean absolute difference before
   double residual_px = 0;             // mean absolute difference after removal of the model
+  double agreeing_share = 0;          // of all matches: those within kAgreesPx of the model
   std::array<double, 6> model{};      // of 1, x, y, x², xy, y² in half widths from the centre
   double half_width_px = 1;           // scale of x and y
   double centre_u_px = 0, centre_v_px = 0;
@@ -37,6 +38,8 @@ struct RowAlignment {
            model[5] * y * y;
   }
 
+  static constexpr double kAgreesPx = 0.25;      // a correct match with the model
+  static constexpr double kByChance = 0.2;       // agreeing share; wrong matches have 0.1
   static constexpr int kFewestMatches = 30;      // with fewer, the result is unknown
   static constexpr double kWarnAbovePx = 0.5;    // matchers lose pixels beyond
   static constexpr double kRemoveAbovePx = 0.2;  // below, resampling costs more than it corrects

@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "stereo/images/view_masks.h"
 #include "stereo/matching/support_points.h"
+#include "stereo/rectification/row_resampling.h"
 
 namespace softscope {
 namespace {
@@ -127,8 +128,17 @@ GradientImage RowMeter::gradientOf(const GrayImage& right, const Mask& ignored) 
   return {fillMasked(right, ignored), ElasOptions{}.gradient_gain, margin_px_, ignored};
 }
 
+/// Whether rows of one offset do not reach those at the image's sides.
+bool RowMeter::isSteep(const RowPlane& expected) const {
+  const double half_height_px = left_.height_px() / 2.0, half_width_px = left_.width_px() / 2.0;
+  return std::abs(expected.per_column) * half_width_px +
+             std::abs(expected.per_row) * half_height_px >
+         kRowReach + kCoarseOffset;
+}
+
 RowAlignment RowMeter::measure(const GrayImage& right, const Mask& ignored,
                                const RowPlane& expected) {
+  if (isSteep(expected)) return fitRowModel(match(right, ignored, expected), scale(), expected);
   const GradientImage gradient = gradientOf(right, ignored);
   const int first = firstOffset(expected);
   const auto few = matchRows(gradient, first, grid_px_ + grid_px_ / 2);
@@ -136,8 +146,17 @@ RowAlignment RowMeter::measure(const GrayImage& right, const Mask& ignored,
   return fitRowModel(is_enough ? few : matchNearest(gradient, expected), scale(), expected);
 }
 
-std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignored) {
-  return matchNearest(gradientOf(right, ignored));
+std::vector<RowMatch> RowMeter::match(const GrayImage& right, const Mask& ignored,
+                                      const RowPlane& expected) {
+  if (!expected.isKnown()) return matchNearest(gradientOf(right, ignored));
+  const RowAlignment moved = withModel(expected, scale());
+  auto matches = matchNearest(gradientOf(moveRows(right, moved), moveMaskRows(ignored, moved)));
+  for (RowMatch& m : matches) {
+    const double moved_px = moved.at(m.u_right_px, m.v_right_px);
+    m.difference_px += moved_px;
+    m.v_right_px += moved_px;
+  }
+  return matches;
 }
 
 std::vector<RowMatch> RowMeter::matchNearest(const GradientImage& right, const RowPlane& expected) {

@@ -19,8 +19,9 @@ class RowMeter {
  public:
   RowMeter(const GrayImage& left, int disparity_max_px, const Mask& ignored = {});
 
-  /// Matches; most of them correct.
-  std::vector<RowMatch> match(const GrayImage& right, const Mask& ignored = {});
+  /// Matches; most of them correct. With `expected` rows, those of the right image moved by them.
+  std::vector<RowMatch> match(const GrayImage& right, const Mask& ignored = {},
+                              const RowPlane& expected = {});
 
   /// The smooth row difference of the matches, of which rows that correspond need only half; where
   /// nothing matches, the expected one. Known rows are not searched for.
@@ -31,6 +32,7 @@ class RowMeter {
   RowAlignment scale() const;
 
  private:
+  bool isSteep(const RowPlane& expected) const;
   GradientImage gradientOf(const GrayImage& right, const Mask& ignored) const;
   std::vector<RowMatch> matchNearest(const GradientImage& right, const RowPlane& expected = {});
   std::vector<RowMatch> matchRows(const GradientImage& right, int row_offset, int grid_px);

@@ -121,14 +121,13 @@ std::array<double, 6> refit(const std::vector<RowMatch>& matches, double common_
   return model;
 }
 
-/// The plane as a model.
+}  // namespace
+
 RowAlignment withModel(const RowPlane& plane, RowAlignment scale) {
   scale.model = {plane.centre_px, plane.per_column * scale.half_width_px,
                  plane.per_row * scale.half_width_px};
   return scale;
 }
-
-}  // namespace
 
 RowAlignment fitRowModel(std::vector<RowMatch> matches, RowAlignment alignment,
                          const RowPlane& expected) {
@@ -141,6 +140,10 @@ RowAlignment fitRowModel(std::vector<RowMatch> matches, RowAlignment alignment,
     alignment.model = refit(matches, common_px, round, alignment);
   const std::vector<double> residuals = residualsOf(matches, alignment);
   for (std::size_t k = 0; k < plane.model.size(); ++k) alignment.model[k] += plane.model[k];
+  const auto agrees = [](double px) { return std::abs(px) < RowAlignment::kAgreesPx; };
+  alignment.agreeing_share =
+      static_cast<double>(std::count_if(residuals.begin(), residuals.end(), agrees)) /
+      static_cast<double>(residuals.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (std::abs(residuals[i]) > kMismatchPx) continue;
     ++alignment.matches;
@@ -154,9 +157,11 @@ RowAlignment fitRowModel(std::vector<RowMatch> matches, RowAlignment alignment,
   return alignment;
 }
 
-RowPlane fitRowPlane(const std::vector<RowMatch>& matches, RowAlignment scale) {
+RowPlane fitRowPlane(std::vector<RowMatch> matches, RowAlignment scale, const RowPlane& expected) {
+  const RowAlignment plane = withModel(expected, scale);
   std::vector<double> differences;
-  for (const RowMatch& m : matches) differences.push_back(m.difference_px);
+  for (RowMatch& m : matches)
+    differences.push_back(m.difference_px -= plane.at(m.u_right_px, m.v_right_px));
   scale.model = {medianOf(std::move(differences))};
   for (int round = 0; round < kRounds; ++round) {
     const RowEquations equations = equationsOf(matches, weightsOf(matches, round, scale), scale);
@@ -164,6 +169,7 @@ RowPlane fitRowPlane(const std::vector<RowMatch>& matches, RowAlignment scale) {
         equations.normal.topLeftCorner<3, 3>().ldlt().solve(equations.rhs.head<3>());
     std::copy_n(solved.data(), 3, scale.model.begin());
   }
+  for (std::size_t k = 0; k < 3; ++k) scale.model[k] += plane.model[k];
   return scale.plane();
 }
 

@@ -15,6 +15,9 @@ struct RowMatch {
   int u_left_px = 0, v_left_px = 0;
 };
 
+/// The plane as a model.
+RowAlignment withModel(const RowPlane& plane, RowAlignment scale);
+
 /// Least squares with Tukey's weights about the median, then about the
 /// model. Without matches the model is drawn to the expected rows and to the difference from them
 /// that the matches have in common, instead of an extrapolated slope or curvature. Too few matches
@@ -22,7 +25,9 @@ struct RowMatch {
 RowAlignment fitRowModel(std::vector<RowMatch> matches, RowAlignment alignment,
                          const RowPlane& expected = {});
 
-/// Plane of the matches of several frames, by the same weights. Needs one match.
-RowPlane fitRowPlane(const std::vector<RowMatch>& matches, RowAlignment scale);
+/// Plane of the matches of several frames, by the same weights; slopes are drawn to the expected
+/// ones. Needs one match.
+RowPlane fitRowPlane(std::vector<RowMatch> matches, RowAlignment scale,
+                     const RowPlane& expected = {});
 
 }  // namespace softscope

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/mask_morphology.h"
 #include "core/parallel.h"
 #include "stereo/kernels/stereo_kernels.h"
 
@@ -72,6 +73,13 @@ GrayImage moveRows(const GrayImage& picture, const RowAlignment& alignment) {
 
 ColourImage moveRows(const ColourImage& picture, const RowAlignment& alignment) {
   return move(picture, alignment);
+}
+
+Mask moveMaskRows(const Mask& mask, const RowAlignment& alignment) {
+  if (mask.empty()) return {};
+  Mask marks = dilated(mask, 1);  // the cubic weights of farther rows are small and negative
+  for (std::uint8_t& value : marks.values) value = value == 0 ? 0 : 255;
+  return moveRows(marks, alignment);
 }
 
 }  // namespace softscope

@@ -11,5 +11,7 @@ namespace softscope {
 /// four rows; outside of the image its last row is repeated.
 GrayImage moveRows(const GrayImage& picture, const RowAlignment& alignment);
 ColourImage moveRows(const ColourImage& picture, const RowAlignment& alignment);
+/// Masked where a masked pixel contributes to the moved image.
+Mask moveMaskRows(const Mask& mask, const RowAlignment& alignment);
 
 }  // namespace softscope

@@ -6,22 +6,28 @@
 #include <set>
 #include <utility>
 
+#include "stereo/rectification/rolled_rows.h"
+
 namespace softscope {
 namespace {
 
-constexpr double kAgreesPx = 0.25;    // of a match, or of a frame's model, with that of all frames
-constexpr double kSteadier = 0.7;     // times the scatter at offset 0, at most
-constexpr int kFewestAgreeing = 200;  // for a decision
-constexpr int kBeyondDoubt = 2;       // times the count of any other offset
+constexpr double kAgreesPx = RowAlignment::kAgreesPx;  // a frame's model with that of all frames
+constexpr double kSteadier = 0.7;                      // times the scatter at offset 0, at most
+constexpr int kFewestAgreeing = 200;                   // for a decision
+constexpr int kBeyondDoubt = 2;                        // times the count of any other offset
+constexpr int kFewestJudged = 50;  // matches of all frames, to tell them from wrong ones
+constexpr double kUnsteadyPx = 2;  // scatter: the frames show different rows
+constexpr double kScaled = 0.008;  // of rows; calibrations have a tenth of it
 
 }  // namespace
 
 void SynchronyMeter::add(const GrayImage& left, const std::array<GrayImage, kOffsets>& rights) {
   const RowMeter unused(left, disparity_max_px_);  // each match narrows its range
   scale_ = unused.scale();
+  if (frames_.front().empty()) rolled_ = findRolledRows(unused, rights[kReach]);
   for (int k = 0; k < kOffsets; ++k) {
     RowMeter meter = unused;
-    frames_[k].push_back(meter.match(rights[k]));
+    frames_[k].push_back(meter.match(rights[k], {}, rolled_));
   }
 }
 
@@ -50,7 +56,7 @@ double SynchronyMeter::scatterAt(int offset) const {
   int compared = 0;
   double sum_px2 = 0;
   for (const FrameMatches& frame : framesAt(offset)) {
-    const RowAlignment own = fitRowModel(frame, scale_);
+    const RowAlignment own = fitRowModel(frame, scale_, rolled_);
     if (!own.known()) continue;
     for (const RowMatch& m : frame)
       sum_px2 +=
@@ -61,7 +67,25 @@ double SynchronyMeter::scatterAt(int offset) const {
 }
 
 RowPlane SynchronyMeter::rowsAt(int offset) const {
-  return agreeingAt(offset) < kFewestAgreeing ? RowPlane() : fitRowPlane(allAt(offset), scale_);
+  return agreeingAt(offset) < kFewestAgreeing ? RowPlane()
+                                              : fitRowPlane(allAt(offset), scale_, rolled_);
+}
+
+RowDoubt SynchronyMeter::doubtAt(int offset) const {
+  RowDoubt doubt;
+  doubt.matches = static_cast<int>(allAt(offset).size());
+  if (doubt.matches < kFewestJudged) return doubt;
+  const RowAlignment rows = modelAt(offset);
+  doubt.agreeing_share = rows.agreeing_share;
+  doubt.fan_px = rows.model[4];
+  doubt.scatter_px = scatterAt(offset);
+  const bool unsteady = std::isfinite(doubt.scatter_px) && doubt.scatter_px > kUnsteadyPx;
+  const RowPlane plane = rowsAt(offset);
+  doubt.roll_rad = rolled_.isKnown() ? plane.per_column : 0;
+  doubt.scale = plane.per_row;
+  doubt.is_scaled = std::abs(doubt.scale) > kScaled;
+  doubt.is_strong = doubt.agreeing_share < RowAlignment::kByChance || unsteady;
+  return doubt;
 }
 
 bool SynchronyMeter::isClear() const {

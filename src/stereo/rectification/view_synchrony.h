@@ -16,6 +16,18 @@ struct ViewSynchrony {
   int agreeing_as_is = 0;  // … and with equal numbers
 };
 
+/// How far the rows of a clip can be believed.
+struct RowDoubt {
+  int matches = 0;
+  double agreeing_share = 0;  // of the matches, with the rows of all frames
+  double scatter_px = 0;      // of the rows of single frames; infinite if they are unknown
+  double roll_rad = 0;        // of a camera, if it is large
+  double scale = 0;           // of the rows of the right view: larger by this share
+  double fan_px = 0;          // of the row difference's model, by x y in half widths: a yaw's
+  bool is_strong = false;     // no more agree than wrong matches do, or frames differ
+  bool is_scaled = false;     // the focal lengths of the calibration do not fit
+};
+
 /// Two videos may have been started or cut a few images apart; then tissue that moves sideways has
 /// a wrong depth, and tissue that moves up or down differs in its rows. For synchronous images,
 /// row differences are the same in every frame: the error of the calibration. The offset is
@@ -41,12 +53,17 @@ class SynchronyMeter {
   /// frame does not show them where it has no texture. 0 without enough matches that agree.
   RowPlane rowsAt(int offset) const;
 
+  /// Whether these rows are those of the calibration: not where a camera is rolled farther than is
+  /// tried, or has another focal length, or where nothing matches but by chance. Few matches tell
+  /// nothing.
+  RowDoubt doubtAt(int offset) const;
+
  private:
   using FrameMatches = std::vector<RowMatch>;
 
   const std::vector<FrameMatches>& framesAt(int offset) const { return frames_[offset + kReach]; }
   FrameMatches allAt(int offset) const;
-  RowAlignment modelAt(int offset) const { return fitRowModel(allAt(offset), scale_); }
+  RowAlignment modelAt(int offset) const { return fitRowModel(allAt(offset), scale_, rolled_); }
   /// Pixels whose rows agree with the model of all frames.
   int agreeingAt(int offset) const;
   /// RMS difference of the known models of single frames from that of all, at their matches;
@@ -56,6 +73,7 @@ class SynchronyMeter {
   int disparity_max_px_;
   std::array<std::vector<FrameMatches>, kOffsets> frames_;
   RowAlignment scale_;
+  RowPlane rolled_;  // of the first frame; known if its right camera is rolled
 };
 
 }  // namespace softscope
