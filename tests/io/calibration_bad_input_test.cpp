@@ -172,6 +172,29 @@ TEST(BadCalibration, OtherFormsAreCheckedAsWell) {
                           {"another camera", "700"});
 }
 
+TEST(BadCalibration, AFisheyeLensIsRefusedWhereverItIsNamed) {
+  for (const char* line :
+       {"distortion_model: equidistant", "Distortion_Model: Kannala-Brandt", "model: fisheye",
+        "camera_model: OPENCV_FISHEYE", "lens_type: kb4", "fisheye: 1", "is_fisheye: true",
+        "distortion_model: division", "left: {distortion_model: equidistant}"}) {
+    const std::string head = "image_width: 640\nimage_height: 480\n" + std::string(line) + "\n";
+    SCOPED_TRACE(line);
+    expectError<InputError>([&] { parseCalibration(openCvYaml(head), "c.yaml"); },
+                            {"c.yaml: ", "plumb_bob", "fisheye models are not read", "Calibrate"});
+  }
+  expectError<InputError>([] { parseCalibration("f: 5\ncx: 3\ncy: 2\nmodel: fisheye\n", "c"); },
+                          {"c: model is `fisheye`"});
+  expectError<InputError>(
+      [] { parseCalibration("[StereoLeft]\ndistortion_model=equidistant\n", "c.ini"); },
+      {"c.ini: distortion_model is `equidistant`"});
+  for (const char* line : {"distortion_model: plumb_bob", "distortion_model: Rational Polynomial",
+                           "model: Olympus LTF-S190", "camera_model: pinhole", "fisheye: 0",
+                           "lens_type: 30 degrees", "distortion_type: [1, 2]"}) {
+    const std::string head = "image_width: 640\nimage_height: 480\n" + std::string(line) + "\n";
+    EXPECT_TRUE(parseCalibration(openCvYaml(head), "c").warnings.empty()) << line;
+  }
+}
+
 TEST(BadCalibration, RosWithoutBaselineOrWithAFisheyeIsRefused) {
   TemporaryFolder folder;
   const std::string camera = "500 0 321 0 500 241 0 0 1", lens = "0 0 0 0 0",

@@ -9,6 +9,7 @@
 #include "io/calibrations/calibration_files.h"
 #include "io/calibrations/calibration_forms.h"
 #include "io/calibrations/calibration_settings.h"
+#include "io/calibrations/lens_model.h"
 #include "io/documents/npy_file.h"
 #include "io/files/file_bytes.h"
 #include "io/text/message.h"
@@ -65,6 +66,12 @@ bool isScaredName(const std::string& name) {
   return fs::path(name).filename() == "endoscope_calibration.yaml";
 }
 
+Document documentOf(const NamedText& file) {
+  Document document = parseDocument(file.text, file.name);
+  requirePinholeLens(document, file.name);
+  return document;
+}
+
 CalibrationDraft draftFromDocument(const Document& document, const std::string& name) {
   if (isCameraInfo(document))
     throw InputError(name +
@@ -97,12 +104,12 @@ CalibrationDraft draftFromBytes(std::string_view bytes, const std::string& name)
   if (content[0] != '{' && content.find("[StereoLeft]") != std::string_view::npos)
     return draftFromIni(bytes, name);
   if (isBareNumbers(bytes)) return draftFromHamlyn(NamedText{name, bytes});
-  return draftFromDocument(parseDocument(bytes, name), name);
+  return draftFromDocument(documentOf({name, bytes}), name);
 }
 
 std::vector<Document> documentsOf(const std::vector<NamedText>& texts) {
   std::vector<Document> documents;
-  for (const NamedText& file : texts) documents.push_back(parseDocument(file.text, file.name));
+  for (const NamedText& file : texts) documents.push_back(documentOf(file));
   return documents;
 }
 

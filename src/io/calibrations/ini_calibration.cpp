@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "io/calibrations/calibration_forms.h"
 #include "io/calibrations/calibration_parts.h"
+#include "io/calibrations/lens_model.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
 
@@ -29,8 +30,10 @@ IniValues iniValues(std::string_view text, const std::string& name) {
     if (equals == std::string_view::npos)
       throw InputError(say(name, ": line ", number, " is ", excerpt(line),
                            ", but [SECTION] or KEY=VALUE is expected."));
-    if (const auto value = numberOf(trimmed(line.substr(equals + 1))))
-      values[section + "." + lowerCase(trimmed(line.substr(0, equals)))] = *value;
+    const std::string_view key = trimmed(line.substr(0, equals));
+    const std::string_view text_value = trimmed(line.substr(equals + 1));
+    requirePinholeLens(key, text_value, name);
+    if (const auto value = numberOf(text_value)) values[section + "." + lowerCase(key)] = *value;
   }
   return values;
 }

@@ -61,15 +61,7 @@ int pixels(const Document& info, std::string_view key, const std::string& name) 
   return static_cast<int>(value);
 }
 
-void requireKnownModel(const Document& info, const std::string& name) {
-  const Document* model = info.find("distortion_model");
-  if (!model || model->text == "plumb_bob" || model->text == "rational_polynomial") return;
-  throw InputError(say(name, ": distortion_model is ", excerpt(model->text),
-                       ", but plumb_bob or rational_polynomial is expected. Calibrate with one."));
-}
-
 CameraInfo cameraInfoFrom(const Document& info, const std::string& name) {
-  requireKnownModel(info, name);
   CameraInfo out;
   PinholeCamera& camera = out.raw.pinhole;
   camera.width_px = pixels(info, "image_width", name);
