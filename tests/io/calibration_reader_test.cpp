@@ -52,6 +52,28 @@ TEST(CalibrationReader, ReadsOpenCvYaml) {
   EXPECT_DOUBLE_EQ(found.depth_unit_mm, 0.01);
 }
 
+TEST(CalibrationReader, SkipsTheByteOrderMarkOfUtf8) {
+  const std::string mark = "\xef\xbb\xbf";
+  TemporaryFolder folder;
+  const std::vector<std::pair<const char*, std::string>> files = {
+      {"c.yaml", openCvYaml()},
+      {"c.xml", openCvXml()},
+      {"c.json", scaredJson()},
+      {"c.txt", openCas()},
+      {"h.txt", kHamlynLeft + kHamlynRight + kHamlynPose}};
+  for (const auto& [name, text] : files) {
+    SCOPED_TRACE(name);
+    expectTheRig(parseCalibration(mark + text, name));
+    put(folder / name, mark + text);
+    expectTheRig(readCalibration(folder / name));
+  }
+  put(folder / "only" / "pair.txt", mark + openCas());
+  EXPECT_EQ(readCalibration(folder / "only").form, "OpenCAS");
+  put(folder / "utf16.yaml", std::string("\xff\xfe", 2) + std::string("f\0:\0", 4));
+  expectError<InputError>([&] { readCalibration(folder / "utf16.yaml"); },
+                          {"utf16.yaml: its text is UTF-16, but UTF-8 is expected"});
+}
+
 TEST(CalibrationReader, ARectifiedPairNeedsFourNumbers) {
   const auto found =
       parseCalibration("f: 500\ncx: 321\ncy: 241\nbaseline: 0.5\nunit: cm\n", "c.yaml");

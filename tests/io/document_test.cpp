@@ -9,6 +9,10 @@
 
 #include "core/error.h"
 #include "io/documents/number_tree.h"
+#include "io/geometry/track_points_file.h"
+#include "io/geometry/trajectory_file.h"
+#include "io/sequences/timestamps_file.h"
+#include "io/settings/settings.h"
 #include "io/temporary_folder.h"
 #include "io/text/text_lines.h"
 
@@ -57,6 +61,20 @@ TEST(Documents, AKeyHasOneValue) {
   expectRefused(R"({"a": [{"M1": [1, 2], "M1": [1, 3]}]})");
   EXPECT_EQ(parseDocument(R"({"M1": [1, 2.5], "M1": [1, 2.5]})", "c").members.size(), 2U);
   EXPECT_EQ(parseDocument("M1: 1\nM1: 1\n", "c").find("M1")->text, "1");
+}
+
+TEST(Texts, AreReadWithTheByteOrderMarkOfUtf8) {
+  TemporaryFolder folder;
+  const auto marked = [&](const char* name, const std::string& text) {
+    put(folder / name, "\xef\xbb\xbf" + text);
+    return folder / name;
+  };
+  EXPECT_EQ(readTimestamps(marked("t.txt", "0.5\n1\n")), (std::vector<double>{0.5, 1}));
+  EXPECT_EQ(readTrackPixels(marked("t.csv", "id,u_px,v_px\n7,1,2\n"))[0].id, 7);
+  EXPECT_EQ(readTrajectory(marked("p.txt", "0 1 2 3 0 0 0 1\n")).size(), 1U);
+  EXPECT_EQ(readSettings(marked("s.toml", "stereo.method = 'elas'\n")).count("stereo.method"), 1U);
+  put(folder / "big.txt", std::string("\xfe\xff\0", 3) + "1");
+  expectError<InputError>([&] { readTimestamps(folder / "big.txt"); }, {"big.txt", "UTF-16"});
 }
 
 TEST(Json, KeepsOrderTextsAndBounds) {

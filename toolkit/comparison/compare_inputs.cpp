@@ -47,7 +47,7 @@ TriangleMesh readSurfaceOrPoints(const std::filesystem::path& file, double unit_
 
 Landmarks readLandmarks(const std::filesystem::path& file) {
   const NumberTable table(
-      readBytes(file, kTextLimitBytes), shown(file),
+      readText(file, kTextLimitBytes), shown(file),
       {"test_x_mm", "test_y_mm", "test_z_mm", "reference_x_mm", "reference_y_mm", "reference_z_mm"},
       {});
   Landmarks landmarks;

@@ -119,7 +119,7 @@ LandmarkPlaces PlacesReader::read(std::string_view text) {
 
 LandmarkPlaces readLandmarkPlaces(const std::filesystem::path& file) {
   constexpr std::uintmax_t kLimitBytes = 1 << 24;
-  return PlacesReader(shown(file)).read(readBytes(file, kLimitBytes));
+  return PlacesReader(shown(file)).read(readText(file, kLimitBytes));
 }
 
 }  // namespace softscope

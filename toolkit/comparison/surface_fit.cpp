@@ -26,7 +26,7 @@ SurfaceFitOptions parseFit(const std::string& align, const std::string& landmark
 
 Eigen::Isometry3d readTransform(const std::string& file) {
   std::vector<double> numbers;
-  const std::string text = readBytes(file, kTextLimitBytes);
+  const std::string text = readText(file, kTextLimitBytes);
   for (const std::string_view line : linesOf(text))
     for (const std::string_view word : wordsOf(line.substr(0, line.find('#')))) {
       const auto number = numberOf(word);

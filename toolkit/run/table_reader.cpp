@@ -107,7 +107,7 @@ Eigen::Vector3d NumberTable::placeAt(std::size_t row, std::size_t column) const 
 }
 
 std::vector<TrackSample> readTracks(const std::filesystem::path& file) {
-  const NumberTable table(readBytes(file), shown(file), {"frame", "id", "x_mm", "y_mm", "z_mm"},
+  const NumberTable table(readText(file), shown(file), {"frame", "id", "x_mm", "y_mm", "z_mm"},
                           {"visible", "sigma_mm"});
   std::vector<TrackSample> tracks;
   tracks.reserve(table.rows());

@@ -95,7 +95,7 @@ bool looksStructured(const fs::path& file) {
 }
 
 CalibrationFiles aroundStructured(const fs::path& file) {
-  const Document document = parseDocument(readBytes(file, kCalibrationLimitBytes), shown(file));
+  const Document document = parseDocument(readText(file, kCalibrationLimitBytes), shown(file));
   if (isCameraInfo(document)) return rosPair(file);
   const bool has_pose = document.find("R") && document.find("T");
   const bool has_cameras = document.find("M1") || document.find("K1");
@@ -119,7 +119,8 @@ CalibrationFiles aroundFile(const fs::path& file) {
 
 bool hasOpenCasHeader(const fs::path& file) {
   if (fs::file_size(file) < 3 || fs::file_size(file) > kCalibrationLimitBytes) return false;
-  return trimmed(readBytes(file, kCalibrationLimitBytes)).substr(0, 3) == "RAT";
+  return trimmed(withoutByteOrderMark(readBytes(file, kCalibrationLimitBytes))).substr(0, 3) ==
+         "RAT";
 }
 
 Found openCasOne(const Files& texts) {

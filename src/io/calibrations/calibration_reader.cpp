@@ -96,7 +96,8 @@ bool isBareNumbers(std::string_view text) {
   return 2 * numberRows(text).size() >= lines && lines > 0;
 }
 
-CalibrationDraft draftFromBytes(std::string_view bytes, const std::string& name) {
+CalibrationDraft draftFromBytes(std::string_view content_bytes, const std::string& name) {
+  const std::string_view bytes = utf8Text(content_bytes, name);
   if (isNpy(bytes)) return draftFromEndoNerf(bytes, name);
   const std::string_view content = trimmed(bytes);
   if (content.empty()) throw InputError(name + ": the file is empty. Copy or export it again.");
@@ -160,7 +161,7 @@ StereoCalibration readCalibration(const fs::path& file_or_folder, const Calibrat
   const CalibrationFiles files = locateCalibration(file_or_folder);
   std::vector<std::string> contents;
   for (const fs::path& file : files.files)
-    contents.push_back(readBytes(file, kCalibrationLimitBytes));
+    contents.push_back(readText(file, kCalibrationLimitBytes));
   std::vector<NamedText> texts;
   for (std::size_t i = 0; i < contents.size(); ++i)
     texts.push_back({shown(files.files[i]), contents[i]});

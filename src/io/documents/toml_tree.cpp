@@ -95,7 +95,7 @@ nlohmann::ordered_json parseTomlTree(std::string_view toml, const std::string& n
 }
 
 nlohmann::ordered_json readTomlTree(const std::filesystem::path& file) {
-  return parseTomlTree(readBytes(file, kCalibrationLimitBytes), shown(file));
+  return parseTomlTree(readText(file, kCalibrationLimitBytes), shown(file));
 }
 
 }  // namespace softscope

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "io/text/message.h"
+#include "io/text/text_lines.h"
 
 namespace softscope {
 namespace {
@@ -49,6 +50,10 @@ std::string readBytes(const fs::path& file, std::uintmax_t limit_bytes) {
   if (!stream.read(bytes.data(), static_cast<std::streamsize>(size)))
     throw InputError(say(shown(file), ": can't be read: ", std::strerror(errno), "."));
   return bytes;
+}
+
+std::string readText(const fs::path& file, std::uintmax_t limit_bytes) {
+  return std::string(utf8Text(readBytes(file, limit_bytes), shown(file)));
 }
 
 }  // namespace softscope

@@ -12,6 +12,10 @@ namespace softscope {
 std::string readBytes(const std::filesystem::path& file,
                       std::uintmax_t limit_bytes = std::uintmax_t{1} << 30);
 
+/// The same for a text, without the byte-order mark of UTF-8. Throws InputError for UTF-16.
+std::string readText(const std::filesystem::path& file,
+                     std::uintmax_t limit_bytes = std::uintmax_t{1} << 30);
+
 /// A calibration has a few kilobytes.
 inline constexpr std::uintmax_t kCalibrationLimitBytes = std::uintmax_t{4} << 20;
 

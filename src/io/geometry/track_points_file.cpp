@@ -80,7 +80,7 @@ std::string outsideWarning(const std::vector<TrackPixel>& pixels, int width_px, 
 }
 
 std::vector<TrackPixel> readTrackPixels(const std::filesystem::path& file) {
-  return parseTrackPixels(readBytes(file, kTextLimitBytes), shown(file));
+  return parseTrackPixels(readText(file, kTextLimitBytes), shown(file));
 }
 
 }  // namespace softscope

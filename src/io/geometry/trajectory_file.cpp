@@ -69,7 +69,7 @@ Trajectory parseTrajectory(std::string_view text, const std::string& name) {
 }
 
 Trajectory readTrajectory(const std::filesystem::path& file) {
-  return parseTrajectory(readBytes(file, kTextLimitBytes), shown(file));
+  return parseTrajectory(readText(file, kTextLimitBytes), shown(file));
 }
 
 std::string trajectoryText(const Trajectory& trajectory) {

@@ -46,7 +46,7 @@ std::vector<double> parseTimestamps(std::string_view text, const std::string& na
 }
 
 std::vector<double> readTimestamps(const std::filesystem::path& file) {
-  return parseTimestamps(readBytes(file, kTextLimitBytes), shown(file));
+  return parseTimestamps(readText(file, kTextLimitBytes), shown(file));
 }
 
 }  // namespace softscope

@@ -78,7 +78,7 @@ Settings parseSettings(std::string_view toml, const std::string& name) {
 }
 
 Settings readSettings(const std::filesystem::path& file) {
-  return parseSettings(readBytes(file, kCalibrationLimitBytes), shown(file));
+  return parseSettings(readText(file, kCalibrationLimitBytes), shown(file));
 }
 
 void addAssignment(Settings& settings, std::string_view assignment, const std::string& origin) {

@@ -41,6 +41,19 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string_view withoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
+  return text;
+}
+
+std::string_view utf8Text(std::string_view bytes, const std::string& name) {
+  const std::string_view head = bytes.substr(0, 2);
+  if (head == "\xff\xfe" || head == "\xfe\xff")
+    throw InputError(name + ": its text is UTF-16, but UTF-8 is expected. Save it as UTF-8.");
+  return withoutByteOrderMark(bytes);
+}
+
 std::vector<std::string_view> linesOf(std::string_view text) {
   std::vector<std::string_view> lines;
   while (!text.empty()) {

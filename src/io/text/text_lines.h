@@ -11,6 +11,12 @@ namespace softscope {
 /// Without surrounding blanks.
 std::string_view trimmed(std::string_view text);
 
+/// Without the byte-order mark of UTF-8.
+std::string_view withoutByteOrderMark(std::string_view text);
+
+/// The same; throws InputError for UTF-16. `name` is used in the error.
+std::string_view utf8Text(std::string_view bytes, const std::string& name);
+
 /// Lines without their ends (\n or \r\n); views into `text`.
 std::vector<std::string_view> linesOf(std::string_view text);
 
