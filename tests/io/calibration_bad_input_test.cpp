@@ -120,6 +120,20 @@ TEST(BadCalibration, UnusualViewsWarn) {
   EXPECT_NE(stretched[0].find("fx / fy is 2"), std::string::npos);
 }
 
+TEST(BadCalibration, CoefficientsInTheOrderOfMatlabWarn) {
+  const auto warningsFor = [](const std::string& lens) {
+    return parseCalibration(replaced(openCvYaml(), "-0.1,0.02,0.001,-0.002,0.003", lens), "c")
+        .warnings;
+  };
+  for (const char* lens : {"-0.25,0.12,-0.05,0.0015,-0.001", "-0.25,0.12,0.001,0.05,-0.001"}) {
+    const auto warnings = warningsFor(lens);
+    ASSERT_EQ(warnings.size(), 1U) << lens;
+    EXPECT_NE(warnings[0].find("c: the left camera's p"), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find("order is k1 k2 p1 p2 k3"), std::string::npos) << warnings[0];
+  }
+  EXPECT_TRUE(warningsFor("-0.25,0.12,0.015,-0.019,-0.05").empty());
+}
+
 TEST(BadCalibration, AbsurdSizesAndUnitsAreRefused) {
   expectRefused("image_width: 640", "image_width: 640000", {"640000 x 480"});
   expectRefused("image_width: 640", "image_width: 640.5", {"image_width", "640.5", "whole"});

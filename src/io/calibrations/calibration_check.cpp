@@ -36,6 +36,18 @@ void checkFocal(const RawCamera& camera, const std::string& what, Warnings& warn
                            ", but pixels are nearly square. Was the ", "image stretched?"));
 }
 
+/// Coefficients k1 k2 k3 p1 p2 give a p1 as large as k3.
+void checkTangential(const RawCamera& camera, const std::string& what, Warnings& warnings) {
+  const auto& k = camera.distortion.coefficients;
+  for (const auto& [name, value] : {std::pair{"p1", k[2]}, std::pair{"p2", k[3]}}) {
+    if (std::abs(value) <= kLimits.usual_most_tangential) continue;
+    warnings.push_back(say(what, "'s ", name, " is ", value, ", but that of a lens is within ",
+                           kLimits.usual_most_tangential,
+                           " of 0. The expected order is k1 k2 p1 p2 k3; is it k1 k2 k3 p1 p2?"));
+    return;
+  }
+}
+
 /// Rectification may move the principal point outside
 /// of the image, but by less than its longest side.
 void checkPrincipalPoint(const PinholeCamera& camera, const std::string& what) {
@@ -156,6 +168,8 @@ std::vector<std::string> checkCalibration(const StereoCalibration& calibration,
   Warnings warnings;
   checkFocal(calibration.left, calibration.source + ": the left camera", warnings);
   checkFocal(calibration.right, calibration.source + ": the right camera", warnings);
+  checkTangential(calibration.left, calibration.source + ": the left camera", warnings);
+  checkTangential(calibration.right, calibration.source + ": the right camera", warnings);
   checkPrincipalPoint(calibration.left.pinhole, calibration.source + ": the left camera");
   checkPrincipalPoint(calibration.right.pinhole, calibration.source + ": the right camera");
   checkBaseline(calibration, unit, warnings);

@@ -16,6 +16,7 @@ struct CalibrationLimits {
   double usual_least_view_deg = 20, usual_most_view_deg = 120;  // field of view, horizontal
   double usual_most_convergence_deg = 15;                       // angle between the cameras
   double usual_most_aspect = 1.25;                              // fx / fy, or its inverse
+  double usual_most_tangential = 0.02;                          // |p1|, |p2|
   double most_focal_px = 1e6;                                   // view of 1 degree
 };
 
