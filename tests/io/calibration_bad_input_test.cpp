@@ -56,6 +56,19 @@ TEST(BadCalibration, BaselineInAnotherUnitIsGuessed) {
                           {"120 mm"});
 }
 
+TEST(BadCalibration, TheUnitIsGuessedForBaselinesOf2To8Mm) {
+  const std::string size = "image_width: 640\nimage_height: 480\n";
+  const auto centimetres = parseCalibration(openCvYaml(size, "-0.52 0 0"), "c").warnings;
+  ASSERT_EQ(centimetres.size(), 1U);
+  EXPECT_NE(centimetres[0].find("In centimetres? Then write `unit: cm`"), std::string::npos)
+      << centimetres[0];
+  expectError<InputError>([&] { parseCalibration(openCvYaml(size, "-5200 0 0"), "c.yaml"); },
+                          {"5200 mm", "In micrometres? Then divide T by 1000"});
+  for (const char* none : {"-0.09 0 0", "-120 0 0"})
+    expectError<InputError>([&] { parseCalibration(openCvYaml(size, none), "c.yaml"); },
+                            {"Calibrate again, or give its length"});
+}
+
 TEST(BadCalibration, UnusualBaselinesWarn) {
   const std::string size = "image_width: 640\nimage_height: 480\n";
   for (const char* t : {"-0.5 0 0", "-40 0 0"}) {

@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.h"
+#include "core/length_unit.h"
 #include "io/images/picture_limits.h"
 #include "io/text/message.h"
 
@@ -57,16 +59,29 @@ void checkPrincipalPoint(const PinholeCamera& camera, const std::string& what) {
                        kMostSidePx, " pixels a side. Calibrate or export it again."));
 }
 
-/// Unit in which `baseline`, given in `unit`, is plausible for an endoscope; empty if none.
-std::string guessUnit(double baseline_mm, const std::string& unit) {
-  const double in_file = baseline_mm / (unit == "m" ? 1000 : unit == "cm" ? 10 : 1);
-  const auto usual = [](double mm) {
-    return mm >= kLimits.usual_least_baseline_mm && mm <= kLimits.usual_most_baseline_mm;
-  };
-  if (unit != "m" && usual(in_file * 1000)) return "In metres? Then write `unit: m`";
-  if (unit != "cm" && usual(in_file * 10)) return "In centimetres? Then write `unit: cm`";
-  if (unit != "mm" && usual(in_file)) return "In millimetres? Then write `unit: mm`";
-  return "Calibrate again, or give its length";
+struct UnitGuess {
+  const char* unit;
+  double mm;
+  const char* advice;
+};
+constexpr std::array<UnitGuess, 4> kUnitGuesses = {
+    {{"m", 1000, "In metres? Then write `unit: m` (or set calibration.unit)."},
+     {"cm", 10, "In centimetres? Then write `unit: cm` (or set calibration.unit)."},
+     {"mm", 1, "In millimetres? Then write `unit: mm` (or set calibration.unit)."},
+     {"um", 0.001, "In micrometres? Then divide T by 1000 (or set calibration.baseline_mm)."}}};
+
+/// Advice for the unit in which a baseline given in `unit` is that of
+/// an endoscope; `otherwise` if there is none.
+std::string guessUnit(double baseline_mm, const std::string& unit, const char* otherwise) {
+  const auto given = lengthUnitNamed(unit);
+  const double in_file = baseline_mm / (given ? given->mm : 1);
+  for (const UnitGuess& guess : kUnitGuesses) {
+    const double mm = in_file * guess.mm;
+    if (unit != guess.unit && mm >= kLimits.likely_least_baseline_mm &&
+        mm <= kLimits.likely_most_baseline_mm)
+      return guess.advice;
+  }
+  return otherwise;
 }
 
 void checkBaseline(const StereoCalibration& calibration, const std::string& unit,
@@ -76,10 +91,11 @@ void checkBaseline(const StereoCalibration& calibration, const std::string& unit
       say(calibration.source, ": the baseline is ", mm, " mm, but an endoscope's is ",
           kLimits.usual_least_baseline_mm, " to ", kLimits.usual_most_baseline_mm, " mm. ");
   if (!(mm >= kLimits.least_baseline_mm && mm <= kLimits.most_baseline_mm))
-    throw InputError(found + guessUnit(mm, unit) +
-                     " (or set calibration.unit, calibration.baseline_mm).");
+    throw InputError(found + guessUnit(mm, unit,
+                                       "Calibrate again, or give its length (or set "
+                                       "calibration.unit, calibration.baseline_mm)."));
   if (mm < kLimits.usual_least_baseline_mm || mm > kLimits.usual_most_baseline_mm)
-    warnings.push_back(found + "Is it meant?");
+    warnings.push_back(found + guessUnit(mm, unit, "Is it meant?"));
 }
 
 void checkSides(const StereoCalibration& calibration, Warnings& warnings) {

@@ -13,11 +13,12 @@ namespace softscope {
 struct CalibrationLimits {
   double least_baseline_mm = 0.2, usual_least_baseline_mm = 1;
   double most_baseline_mm = 60, usual_most_baseline_mm = 20;
-  double usual_least_view_deg = 20, usual_most_view_deg = 120;  // field of view, horizontal
-  double usual_most_convergence_deg = 15;                       // angle between the cameras
-  double usual_most_aspect = 1.25;                              // fx / fy, or its inverse
-  double usual_most_tangential = 0.02;                          // |p1|, |p2|
-  double most_focal_px = 1e6;                                   // view of 1 degree
+  double likely_least_baseline_mm = 2, likely_most_baseline_mm = 8;  // in a guess at the unit
+  double usual_least_view_deg = 20, usual_most_view_deg = 120;       // field of view, horizontal
+  double usual_most_convergence_deg = 15;                            // angle between the cameras
+  double usual_most_aspect = 1.25;                                   // fx / fy, or its inverse
+  double usual_most_tangential = 0.02;                               // |p1|, |p2|
+  double most_focal_px = 1e6;                                        // view of 1 degree
 };
 
 /// Checks everything independent of the image size. Throws InputError for an
