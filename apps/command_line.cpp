@@ -82,6 +82,14 @@ void refuseOptionsAsValues(const Command& command, const ArgumentList& arguments
   }
 }
 
+/// An empty path would be the current folder, or an error of the system without a name.
+void refuseEmptyOutput(const Command& command, const Argument& argument,
+                       const std::vector<std::string>& values) {
+  if (argument.name != "--out") return;
+  for (const std::string& value : values)
+    if (value.empty()) fail(command, argument.name + " is empty: " + argument.help);
+}
+
 void parseArguments(Command& command, const ArgumentList& arguments,
                     const std::vector<std::string>& words) {
   CLI::App app;
@@ -101,10 +109,12 @@ void parseArguments(Command& command, const ArgumentList& arguments,
   refuseUnknown(command, arguments, app.remaining());
   for (const Argument& argument : arguments.all()) {
     const CLI::Option* option = app.get_option(argument.name);
-    if (option->count() > 0)
+    if (option->count() > 0) {
+      refuseEmptyOutput(command, argument, option->results());
       assign(argument, option->results());
-    else if (argument.required)
+    } else if (argument.required) {
       fail(command, argument.name + " is missing: " + argument.help);
+    }
   }
 }
 

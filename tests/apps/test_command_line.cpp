@@ -54,6 +54,17 @@ TEST(CommandLine, MisspeltCommandGetsTheNearestName) {
   EXPECT_THAT(outcome.err, HasSubstr("did you mean `doctor`?"));
 }
 
+TEST(CommandLine, AnEmptyOutputIsNamed) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"simulate", "--out", ""},
+                                                {"calibration-template", "rectified", "--out", ""},
+                                                {"depth", "left.png", "right.png", "--out", ""}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("softscope " + words[0] + ": --out is empty"));
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
 TEST(CommandLine, AFarFetchedCommandGetsNoGuess) {
   EXPECT_THAT(run({"xyzzy"}).err, Not(HasSubstr("did you mean")));
 }

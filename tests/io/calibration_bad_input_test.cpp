@@ -82,6 +82,9 @@ TEST(BadCalibration, TheRightCameraMustBeOnTheRight) {
   const std::string size = "image_width: 640\nimage_height: 480\n";
   expectError<InputError>([&] { parseCalibration(openCvYaml(size, "5 0 0"), "c.yaml"); },
                           {"right camera lies at", "exchanged"});
+  const std::string plain =
+      replaced(openCvYaml(size, "5.2 0 0"), commas(kRotation), "1,0,0,0,1,0,0,0,1");
+  expectError<InputError>([&] { parseCalibration(plain, "c.yaml"); }, {"(-5.2, 0, 0) mm"});
   expectError<InputError>([&] { parseCalibration(openCvYaml(size, "-1 5 0"), "c.yaml"); },
                           {"right camera lies at"});
 }

@@ -99,8 +99,9 @@ void checkBaseline(const StereoCalibration& calibration, const std::string& unit
 }
 
 void checkSides(const StereoCalibration& calibration, Warnings& warnings) {
-  const Eigen::Vector3d centre = -(calibration.right_from_left.linear().transpose() *
-                                   calibration.right_from_left.translation());
+  const Eigen::Vector3d centre =
+      Eigen::Vector3d::Zero() -  // 0 instead of -0
+      calibration.right_from_left.linear().transpose() * calibration.right_from_left.translation();
   if (!(centre.x() > 0 && std::abs(centre.y()) < centre.x()))
     throw InputError(say(calibration.source, ": the right camera lies at (", centre.x(), ", ",
                          centre.y(), ", ", centre.z(),
