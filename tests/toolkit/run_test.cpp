@@ -1,5 +1,4 @@
-// tests/toolkit/run_test.cpp: run folders: frames, held-out frames, depth instead of stereo,
-// resuming.
+// tests/toolkit/run_test.cpp: run folders: frames, held-out frames, depth files, resuming.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -170,7 +169,8 @@ TEST_F(RunOfAClip, SaysWhereDepthIsTooInaccurateForConfidence) {
   const Json record = written(reconstructSequence(options(), told.listener()).record);
   EXPECT_EQ(record["frames_doubtful"], 3);
   EXPECT_THAT(told.warnings,
-              Contains(HasSubstr("in 3 of 3 frames, less than half of the depth is accurate")));
+              Contains(AllOf(HasSubstr("in 3 of 3 frames, less than half of the depth is accurate"),
+                             HasSubstr("a wrong calibration"))));
   EXPECT_THAT(told.warnings, Not(Contains(HasSubstr("does not fit the image"))));
 }
 

@@ -131,7 +131,8 @@ std::vector<std::string> RunRecord::conclusions() const {
         "in " + std::to_string(frames) + " of " + std::to_string(frames_) +
         " frames, less than half of the " + what + " accurate to " + fixed(kTolerableErrorMm, 0) +
         " mm (95 %), so their confidence is below " + fixed(kDoubtful, 1) +
-        "; possible causes: distant tissue, a short baseline, small images, weak texture");
+        "; possible causes: distant tissue, a short baseline, small images, weak texture, a wrong "
+        "calibration (`softscope info` measures by how much the rows of the images differ)");
   };
   warnOfImprecise(imprecise_, "depth is");
   warnOfImprecise(imprecise_tracks_, "tracked points in view are");
