@@ -209,6 +209,22 @@ TEST(CalibrationReader, PrefersTheOpenCasFileAndWarnsOfTheSplitForm) {
       readCalibration(folder / "calib.left.intrinsics.txt").left.distortion.coefficients[5], 0);
 }
 
+TEST(CalibrationReader, AMissingHalfOfTheRationalModelIsNotCalledDamage) {
+  TemporaryFolder folder;
+  for (const std::string side : {"left", "right"}) {
+    put(folder / ("calib." + side + ".intrinsics.txt"), "500 0 321\n0 500 241\n0 0 1\n");
+    put(folder / ("calib." + side + ".distortion.txt"), "-0.7 120 0.001 -0.002 -19\n");
+  }
+  put(folder / "calib.l2r.txt", "1 0 0 -5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  EXPECT_EQ(readCalibration(folder.path()).form, "OpenCAS");
+  CalibrationHints hints;
+  hints.image_size = "640x480";
+  const std::string text = expectError<InputError>(
+      [&] { readCalibration(folder / "calib.l2r.txt", hints); },
+      {"left camera's lens moves the edge", "k4 k5 k6, is missing", "one-file form"});
+  EXPECT_EQ(text.find("damaged"), std::string::npos) << text;
+}
+
 TEST(CalibrationReader, ReadsHamlynFromThreeFilesAndFromOne) {
   TemporaryFolder folder;
   put(folder / "Left_Camera_Calibration_Intrinsic.txt", kHamlynLeft);

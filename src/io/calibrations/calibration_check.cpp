@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/length_unit.h"
+#include "io/calibrations/calibration_parts.h"
 #include "io/images/picture_limits.h"
 #include "io/text/message.h"
 
@@ -149,18 +150,22 @@ double lensShiftPx(const RawCamera& camera, double x, double y) {
 
 /// Throws if the lens displaces a point at the middle of an image
 /// side (at most at 45 degrees) by more than the length of the image.
-void checkLens(const RawCamera& camera, const std::string& what) {
+void checkLens(const RawCamera& camera, const std::string& what, const std::string& form) {
   const PinholeCamera& pinhole = camera.pinhole;
   const double across = std::min(pinhole.width_px / (2 * pinhole.fx_px), kLensSlope);
   const double down = std::min(pinhole.height_px / (2 * pinhole.fy_px), kLensSlope);
   const double diagonal_px = std::hypot(pinhole.width_px, pinhole.height_px);
+  const char* advice = form == kOpenCasForm && !isRational(camera.distortion)
+                           ? " px. Half of the rational lens model, k4 k5 k6, is missing in the "
+                             "five-file form; use the one-file form (…_Calibration.txt)."
+                           : " px. A distortion coefficient is damaged; calibrate or export it "
+                             "again.";
   for (const auto& [x, y] : {std::pair{across, 0.0}, std::pair{0.0, down}}) {
     const double shift_px = lensShiftPx(camera, x, y);
     if (!(shift_px <= diagonal_px))
-      throw InputError(
-          say(what, "'s lens moves the edge of the image by ", shift_px, " px, but the image is ",
-              pinhole.width_px, " x ", pinhole.height_px,
-              " px. A distortion coefficient is damaged; calibrate or export it again."));
+      throw InputError(say(what, "'s lens moves the edge of the image by ", shift_px,
+                           " px, but the image is ", pinhole.width_px, " x ", pinhole.height_px,
+                           advice));
   }
 }
 
@@ -206,8 +211,8 @@ std::vector<std::string> checkPictureFit(const StereoCalibration& calibration) {
                          right.height_px, ", but both must have the same."));
   if (left.width_px == 0 || left.height_px == 0) return {};
   requirePictureSize(left.width_px, left.height_px, calibration.source);
-  checkLens(calibration.left, calibration.source + ": the left camera");
-  checkLens(calibration.right, calibration.source + ": the right camera");
+  checkLens(calibration.left, calibration.source + ": the left camera", calibration.form);
+  checkLens(calibration.right, calibration.source + ": the right camera", calibration.form);
   Warnings warnings;
   checkView(left, calibration.source + ": the left camera", warnings);
   checkView(right, calibration.source + ": the right camera", warnings);

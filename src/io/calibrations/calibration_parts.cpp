@@ -71,6 +71,11 @@ LensDistortion distortionFrom(const std::vector<double>& values, const std::stri
   return out;
 }
 
+bool isRational(const LensDistortion& distortion) {
+  const auto& k = distortion.coefficients;
+  return k[5] != 0 || k[6] != 0 || k[7] != 0;
+}
+
 int wholePixels(double value, int least, const std::string& what) {
   if (!(value >= least && value <= 1e6) || value != std::floor(value))
     throw InputError(say(what, " is ", value, ", but a whole number of pixels is expected."));

@@ -17,6 +17,12 @@ void setCameraMatrix(PinholeCamera& camera, const std::vector<double>& matrix,
 /// 0, 4, 5, 8, 12 or 14 numbers in OpenCV's order; the last two of 14 (tilt) must be 0.
 LensDistortion distortionFrom(const std::vector<double>& values, const std::string& what);
 
+/// Form of OpenCAS calibrations; their lens model is rational.
+inline constexpr const char* kOpenCasForm = "OpenCAS";
+
+/// True if one of k4 k5 k6 is given.
+bool isRational(const LensDistortion& distortion);
+
 /// Side of an image. Throws InputError unless it is an integer from `least` to a million.
 int wholePixels(double value, int least, const std::string& what);
 

@@ -56,12 +56,6 @@ RawCamera cameraFrom(const NamedText& intrinsics, const NamedText& distortion) {
   return out;
 }
 
-/// True if a coefficient beyond k1 k2 p1 p2 k3 is given.
-bool isRational(const RawCamera& camera) {
-  const auto& k = camera.distortion.coefficients;
-  return k[5] != 0 || k[6] != 0 || k[7] != 0;
-}
-
 }  // namespace
 
 CalibrationDraft draftFromOpenCas(const NamedText& file) {
@@ -71,7 +65,7 @@ CalibrationDraft draftFromOpenCas(const NamedText& file) {
   const OpenCasCamera left = cameraFrom(rows[1], file.name + ": left camera");
   const OpenCasCamera right = cameraFrom(rows[2], file.name + ": right camera");
   CalibrationDraft draft;
-  draft.calibration.form = "OpenCAS";
+  draft.calibration.form = kOpenCasForm;
   draft.calibration.left = left.camera;
   draft.calibration.right = right.camera;
   draft.calibration.right_from_left = right.camera_from_first * left.camera_from_first.inverse();
@@ -85,14 +79,14 @@ CalibrationDraft draftFromOpenCas(const OpenCasFiles& files) {
                          " numbers, but a 4 x 4 transform from left to right is expected."));
   CalibrationDraft draft;
   StereoCalibration& out = draft.calibration;
-  out.form = "OpenCAS";
+  out.form = kOpenCasForm;
   out.left = cameraFrom(files.left_intrinsics, files.left_distortion);
   out.right = cameraFrom(files.right_intrinsics, files.right_distortion);
   const std::string& name = files.left_to_right.name;
   out.right_from_left =
       poseFrom({pose[0], pose[1], pose[2], pose[4], pose[5], pose[6], pose[8], pose[9], pose[10]},
                {pose[3], pose[7], pose[11]}, name + ": rotation", name + ": translation");
-  if (!isRational(out.left) || !isRational(out.right))
+  if (!isRational(out.left.distortion) || !isRational(out.right.distortion))
     out.warnings.push_back(
         files.left_distortion.name +
         ": has k1 k2 p1 p2 k3 alone, but OpenCAS calibrations are of the rational "
