@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/calibration_texts.h"
+#include "io/calibrations/calibration_check.h"
 #include "io/calibrations/calibration_reader.h"
 #include "io/temporary_folder.h"
 
@@ -134,6 +135,28 @@ TEST(BadCalibration, UnusualViewsWarn) {
       parseCalibration(replaced(openCvYaml(), "500,0,321,0,500", "500,0,321,0,250"), "c").warnings;
   ASSERT_EQ(stretched.size(), 1U);
   EXPECT_NE(stretched[0].find("fx / fy is 2"), std::string::npos);
+}
+
+TEST(BadCalibration, AnAssumedSizeMustFitThePrincipalPoints) {
+  const auto warningsFor = [](double left_u, double right_u, double v) {
+    StereoCalibration calibration = parseCalibration(openCvYaml(), "c");
+    calibration.left.pinhole.cx_px = left_u;
+    calibration.right.pinhole.cx_px = right_u;
+    calibration.left.pinhole.cy_px = calibration.right.pinhole.cy_px = v;
+    return checkAssumedSize(calibration);
+  };
+  // 800 x 600 and 480 x 360 on 640 x 480.
+  for (const double scale : {1.25, 0.75}) {
+    const double u = 320 * scale - 0.5, v = 240 * scale - 0.5;
+    const auto warnings = warningsFor(u + 4, u - 4, v);
+    ASSERT_EQ(warnings.size(), 1U) << scale;
+    EXPECT_NE(warnings[0].find(scale > 1 ? "800 x 600" : "480 x 360"), std::string::npos)
+        << warnings[0];
+  }
+  EXPECT_TRUE(warningsFor(330, 310, 250).empty());
+  EXPECT_TRUE(warningsFor(400, 240, 300).empty()) << "cameras that look past each other";
+  EXPECT_TRUE(warningsFor(400, 400, 200).empty()) << "towards another corner";
+  EXPECT_TRUE(warningsFor(460, 460, 290).empty()) << "by different factors";
 }
 
 TEST(BadCalibration, CoefficientsInTheOrderOfMatlabWarn) {

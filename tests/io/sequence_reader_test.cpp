@@ -304,6 +304,20 @@ TEST(SequenceReader, TakesASizeThatTheCalibrationLeavesOutFromThePictures) {
   EXPECT_NE(reader.calibration().warnings[0].find("160 x 120"), std::string::npos);
 }
 
+TEST(SequenceReader, WarnsOfACalibrationForAnotherSize) {
+  TemporaryFolder folder;
+  makeSequence(folder.path(), 1);
+  std::string text = smallCalibration("");  // for 200 x 150
+  const std::string centre = "150,0,80,0,150,60", scaled = "188,0,99.5,0,188,74.5";
+  for (std::size_t at = text.find(centre); at != std::string::npos; at = text.find(centre))
+    text.replace(at, centre.size(), scaled);
+  put(folder / "calibration.yaml", text);
+  const auto warnings = SequenceReader(folder.path()).calibration().warnings;
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[1].find("about 200 x 150 pixels, not of 160 x 120"), std::string::npos)
+      << warnings[1];
+}
+
 TEST(SequenceReader, TakesAUsersOwnLayout) {
   TemporaryFolder folder;
   put(folder / "rig.yaml", smallCalibration());

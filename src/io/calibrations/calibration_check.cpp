@@ -20,6 +20,9 @@ constexpr double kDegreesPerRadian = 57.29577951308232;
 constexpr double kRectifiedAngleDeg = 0.1;
 constexpr double kRectifiedRowsPx = 2.0;
 constexpr double kRectifiedFocalRatio = 0.005;
+// Centre of an image of another size, in shares of the image side; ratio of both shares.
+constexpr double kScaledCentre = 0.58;
+constexpr double kSameFactor = 0.1;
 constexpr double kLensSlope = 1;  // lens models may diverge beyond 45 degrees
 
 using Warnings = std::vector<std::string>;
@@ -183,6 +186,16 @@ void checkView(const PinholeCamera& camera, const std::string& what, Warnings& w
                            camera.height_px, " pixels. Was it calibrated at this size?"));
 }
 
+/// True if the principal point is off the middle by about the same factor in x and
+/// y, as in an image of another size.
+bool isFarFromMiddle(const PinholeCamera& camera) {
+  const double across = (camera.cx_px + 0.5) / camera.width_px;
+  const double down = (camera.cy_px + 0.5) / camera.height_px;
+  const bool beyond = across > kScaledCentre && down > kScaledCentre;
+  const bool before = across < 1 - kScaledCentre && down < 1 - kScaledCentre;
+  return (beyond || before) && std::abs(across / down - 1) <= kSameFactor;
+}
+
 }  // namespace
 
 std::vector<std::string> checkCalibration(const StereoCalibration& calibration,
@@ -217,6 +230,19 @@ std::vector<std::string> checkPictureFit(const StereoCalibration& calibration) {
   checkView(left, calibration.source + ": the left camera", warnings);
   checkView(right, calibration.source + ": the right camera", warnings);
   return warnings;
+}
+
+std::vector<std::string> checkAssumedSize(const StereoCalibration& calibration) {
+  const PinholeCamera &left = calibration.left.pinhole, &right = calibration.right.pinhole;
+  if (!isFarFromMiddle(left) || !isFarFromMiddle(right) ||
+      (left.cx_px > left.width_px / 2.0) != (right.cx_px > right.width_px / 2.0))
+    return {};
+  // The centre of the pixel (0, 0) has the coordinates 0, 0.
+  const double width_px = left.cx_px + right.cx_px + 1, height_px = left.cy_px + right.cy_px + 1;
+  return {say(calibration.source, ": its principal points, (", left.cx_px, ", ", left.cy_px,
+              ") and (", right.cx_px, ", ", right.cy_px, "), are those of images of about ",
+              std::llround(width_px), " x ", std::llround(height_px), " pixels, not of ",
+              left.width_px, " x ", left.height_px, ". Give the calibration made for this size.")};
 }
 
 }  // namespace softscope

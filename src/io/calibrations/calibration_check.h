@@ -32,4 +32,8 @@ std::vector<std::string> checkCalibration(const StereoCalibration& calibration,
 /// Throws InputError for an implausible size, or for cameras of different sizes.
 std::vector<std::string> checkPictureFit(const StereoCalibration& calibration);
 
+/// Warning if the image size, which the file does not give, is probably another one: the
+/// principal points of both cameras lie off its middle by the same factor in x and y.
+std::vector<std::string> checkAssumedSize(const StereoCalibration& calibration);
+
 }  // namespace softscope

@@ -222,6 +222,8 @@ void FrameLoader::determineSize(const ColourImage& left, const std::string& name
                                       left.height_px, "."));
   for (std::string& line : checkPictureFit(calibration_))
     calibration_.warnings.push_back(std::move(line));
+  for (std::string& line : checkAssumedSize(calibration_))
+    calibration_.warnings.push_back(std::move(line));
 }
 
 void FrameLoader::requireShape(int width_px, int height_px, const std::string& name) const {
