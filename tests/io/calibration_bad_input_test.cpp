@@ -225,6 +225,18 @@ TEST(BadCalibration, OtherFormsAreCheckedAsWell) {
                           {"another camera", "700"});
 }
 
+TEST(BadCalibration, MatricesOfKittiAreNotThoseOfServCt) {
+  const std::string left = "500 0 321 0 0 500 241 0 0 0 1 0\n",
+                    right = "500 0 321 -2500 0 500 241 0 0 0 1 0\n";
+  const std::string pair = "P1: " + left + "P2: " + right;
+  EXPECT_EQ(parseCalibration(pair, "c").form, "SERV-CT");
+  expectError<InputError>(
+      [&] {
+        parseCalibration("P0: " + left + "P1: " + right + "P2: " + left + "P3: " + right, "c.txt");
+      },
+      {"c.txt: P0 and P1 are names of KITTI", "calibration-template rectified"});
+}
+
 TEST(BadCalibration, AFisheyeLensIsRefusedWhereverItIsNamed) {
   for (const char* line :
        {"distortion_model: equidistant", "Distortion_Model: Kannala-Brandt", "model: fisheye",

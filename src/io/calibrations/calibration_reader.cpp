@@ -77,6 +77,11 @@ CalibrationDraft draftFromDocument(const Document& document, const std::string& 
     throw InputError(name +
                      ": one camera's camera_info, but those of both are expected. Give the "
                      "left one with the right one beside it.");
+  if (document.find("P0") && document.find("P1"))
+    throw InputError(name +
+                     ": P0 and P1 are names of KITTI, whose pairs are P0 and P1 (grey) or P2 and "
+                     "P3 (colour), in metres. Write the pair of the images as f, cx, cy and "
+                     "baseline (`softscope calibration-template rectified`).");
   if (document.find("P1") && document.find("P2") && !document.find("M1") && !document.find("R"))
     return draftFromProjections(document, name);
   const Document* scared = document.find("camera-calibration");
