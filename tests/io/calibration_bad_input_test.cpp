@@ -225,6 +225,38 @@ TEST(BadCalibration, OtherFormsAreCheckedAsWell) {
                           {"another camera", "700"});
 }
 
+TEST(BadCalibration, MisspeltKeysAreNamed) {
+  const std::string size = "image_width: 640\nimage_height: 480\n";
+  const auto expectWarning = [](const std::string& text, const std::string& part) {
+    const auto warnings = parseCalibration(text, "c").warnings;
+    ASSERT_EQ(warnings.size(), 1U) << part;
+    EXPECT_NE(warnings[0].find(part), std::string::npos) << warnings[0];
+  };
+  const std::string few = "f: 500\ncx: 321\ncy: 241\n";
+  expectWarning(few + "baseline: 5\ncx_rigth: 330\n",
+                "c: `cx_rigth` is not a known key; is `cx_right` meant?");
+  expectWarning(few + "baselin: 5\n", "is `baseline` meant?");
+  expectWarning(few + "baseline: 5\ndistortion: [0.1, 0, 0, 0]\n",
+                "without distortion; `distortion` is not read");
+  expectWarning(openCvYaml("image_widht: 640\nimage_height: 480\n"), "is `image_width` meant?");
+  expectWarning(openCvYaml(size + "rectifed: 1\n"), "is `rectified` meant?");
+  expectWarning(openCvYaml(size + "Unit: m\n"), "is `unit` meant?");
+  expectWarning(
+      replaced(openCvYaml(size), "D1: !!", "distortion1: !!"),
+      "D1 or D2 is missing; the lens is taken to be without distortion. Not read: `distortion1`");
+  expectError<InputError>(
+      [&] { parseCalibration(replaced(openCvYaml(size), "M1: !!", "cameraMatrx1: !!"), "c"); },
+      {"c: M1 is missing", "`cameraMatrx1` is not a known key; is `cameraMatrix1` meant?"});
+}
+
+TEST(BadCalibration, KeysOfOtherProgramsAreSilent) {
+  const std::string size = "image_width: 640\nimage_height: 480\n";
+  for (const char* key :
+       {"calibration_time", "board_width", "square_size", "nframes", "flags", "P1", "Q", "E",
+        "R_left", "P_left", "cameraMatrix3", "image_time", "avg_reprojection_error", "distance"})
+    EXPECT_TRUE(parseCalibration(openCvYaml(size + key + ": 1\n"), "c").warnings.empty()) << key;
+}
+
 TEST(BadCalibration, MatricesOfKittiAreNotThoseOfServCt) {
   const std::string left = "500 0 321 0 0 500 241 0 0 0 1 0\n",
                     right = "500 0 321 -2500 0 500 241 0 0 0 1 0\n";

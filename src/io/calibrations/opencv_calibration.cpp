@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "io/calibrations/calibration_forms.h"
 #include "io/calibrations/calibration_parts.h"
+#include "io/calibrations/misspelt_key.h"
 #include "io/calibrations/one_camera.h"
 #include "io/documents/number_tree.h"
 #include "io/text/message.h"
@@ -65,6 +66,21 @@ const Aliases kBaseline = {"baseline", "baseline_mm"};
 const Aliases kWidth = {"image_width", "imageWidth", "width"};
 const Aliases kHeight = {"image_height", "imageHeight", "height"};
 const Aliases kSize = {"image_size", "imageSize", "img_size"};
+const Aliases kUnit = {"unit", "units"};
+const Aliases kRectified = {"rectified"};
+const Aliases kDepthUnit = {"depth_unit_mm"};
+
+/// All names of a calibration.
+Aliases knownNames() {
+  Aliases all;
+  for (const Aliases& names :
+       {kLeftMatrix,  kRightMatrix, kLeftDistortion, kRightDistortion, kRotation,
+        kTranslation, kOneMatrix,   kOneDistortion,  kFocal,           kFocalDown,
+        kCentreU,     kCentreV,     kCentreURight,   kBaseline,        kWidth,
+        kHeight,      kSize,        kUnit,           kRectified,       kDepthUnit})
+    all.insert(all.end(), names.begin(), names.end());
+  return all;
+}
 
 /// Access to one or two documents.
 class Members {
@@ -83,14 +99,30 @@ class Members {
   std::vector<double> numbers(const Aliases& names) const {
     const Document* found = find(names);
     if (!found)
-      throw InputError(say(label(names),
-                           " is missing, but a stereo calibration has M1, D1, M2, D2,",
-                           " R and T. Write them as stereoCalibrate names them."));
+      throw InputError(
+          say(label(names), " is missing, but a stereo calibration has M1, D1, M2, D2,",
+              " R and T. Write them as stereoCalibrate names them.", misspelt(names, " ")));
     return numbersOf(*found, label(names));
   }
   std::vector<double> numbersIfAny(const Aliases& names) const {
     return find(names) ? numbers(names) : std::vector<double>{};
   }
+
+  /// Sentence about a misspelt key after `before`; empty if there is none.
+  std::string misspelt(const Aliases& names, const std::string& before) const {
+    const std::string found = misspeltKey(documents_, names, knownNames());
+    return found.empty() ? found : before + found;
+  }
+  /// One warning per value that is absent, with a key that resembles its names.
+  void warnOfMisspelt(const std::vector<Aliases>& values,
+                      std::vector<std::string>& warnings) const {
+    for (const Aliases& names : values) {
+      if (find(names)) continue;
+      const std::string warning = misspelt(names, name_ + ": ");
+      if (!warning.empty()) warnings.push_back(warning);
+    }
+  }
+  std::string unreadLens() const { return unreadLensKeys(documents_, knownNames()); }
 
  private:
   const std::vector<Document>& documents_;
@@ -121,16 +153,15 @@ void setSize(const Members& members, StereoCalibration& out) {
 }
 
 void setFlags(const Members& members, CalibrationDraft& draft) {
-  if (const Document* unit = members.find({"unit", "units"})) draft.unit = unit->text;
-  if (const Document* flag = members.find({"rectified"})) {
+  if (const Document* unit = members.find(kUnit)) draft.unit = unit->text;
+  if (const Document* flag = members.find(kRectified)) {
     const std::string text = lowerCase(flag->text);
     if (text != "0" && text != "1" && text != "true" && text != "false")
       throw InputError(
-          say(members.label({"rectified"}), " is ", excerpt(text), ", but 0 or 1 is expected."));
+          say(members.label(kRectified), " is ", excerpt(text), ", but 0 or 1 is expected."));
     draft.calibration.rectified = text == "1" || text == "true";
   }
-  if (members.find({"depth_unit_mm"}))
-    draft.calibration.depth_unit_mm = singleNumber(members, {"depth_unit_mm"});
+  if (members.find(kDepthUnit)) draft.calibration.depth_unit_mm = singleNumber(members, kDepthUnit);
 }
 
 /// Errors mention the names of the short format.
@@ -140,7 +171,8 @@ double shortNumber(const Members& members, const Aliases& names) {
         say(members.label(names),
             " is missing, but a short calibration has f (or fx and fy), cx and cy, and "
             "baseline for a rectified pair. `softscope calibration-template` writes "
-            "one of each kind."));
+            "one of each kind.",
+            members.misspelt(names, " ")));
   return singleNumber(members, names);
 }
 
@@ -200,6 +232,12 @@ CalibrationDraft draftFromFewNumbers(const std::vector<Document>& documents,
   if (pair) baseline = shortNumber(members, kBaseline);
   if (!pair || members.find({"baseline_mm"})) draft.unit = "mm";
   out.right_from_left.translation().x() = -baseline;
+  members.warnOfMisspelt({kOneDistortion, kFocalDown, kCentreURight, kBaseline, kWidth, kHeight,
+                          kSize, kUnit, kRectified, kDepthUnit},
+                         out.warnings);
+  if (const std::string lens = members.unreadLens(); !lens.empty() && !members.find(kOneDistortion))
+    out.warnings.push_back(say(name, ": the lens is taken to be without distortion; ", lens,
+                               " is not read. Write M1 and D1."));
   return draft;
 }
 
@@ -239,9 +277,15 @@ CalibrationDraft draftFromOpenCv(const std::vector<Document>& documents, const s
     out.rectified = isRectified(out);
   }
   setFlags(members, draft);
-  if (!out.rectified && (!members.find(kLeftDistortion) || !members.find(kRightDistortion)))
-    out.warnings.push_back(name +
-                           ": D1 or D2 is missing; the lens is taken to be without distortion.");
+  members.warnOfMisspelt(
+      {kLeftDistortion, kRightDistortion, kWidth, kHeight, kSize, kUnit, kRectified, kDepthUnit},
+      out.warnings);
+  if (!out.rectified && (!members.find(kLeftDistortion) || !members.find(kRightDistortion))) {
+    const std::string lens = members.unreadLens();
+    out.warnings.push_back(say(name,
+                               ": D1 or D2 is missing; the lens is taken to be without distortion.",
+                               lens.empty() ? "" : " Not read: " + lens + ". Write D1 and D2."));
+  }
   return draft;
 }
 
