@@ -51,11 +51,29 @@ TEST_F(BadSequence, MissingPicturesAreNamed) {
   expectRefused({"left/000003.png", "no partner"});
 }
 
+TEST_F(BadSequence, OneFileTooManyIsNamed) {
+  const ColourImage image = testPair(9).left;
+  writePng(at("left/overview.png"), image);
+  expectRefused({"left/overview.png: has no number", "7 files in", "6 in"});
+  fs::remove(at("left/overview.png"));
+  writeJpeg(at("left/000003.jpg"), image);
+  expectRefused({"left/000003", "has the number of 000003.", "7 files in"});
+  fs::rename(at("left/000003.jpg"), at("right/000003.jpg"));
+  expectRefused({"right/000003", "has the number of 000003.", "7 in"});
+}
+
 TEST_F(BadSequence, MissingViewsAreNamed) {
   fs::remove_all(at("right"));
   expectRefused({"neither a right one nor depth/"});
   fs::remove_all(at("left"));
   expectRefused({"no left view", "stereo.mp4"});
+  fs::rename(at("calibration.yaml"), at("camera.yaml"));
+  for (const char* name : {"Left", "image_1"}) fs::create_directory(at(name));
+  expectRefused({"no left view", "Found there: Left/, camera.yaml, image_1/", "Rename"});
+  makeSequence(at("stacked"), 2);
+  fs::remove_all(at("stacked/right"));
+  expectError<InputError>([&] { SequenceReader(at("stacked/left")); },
+                          {"no left view", "2 images", "one video"});
   makeSequence(at("other"), 1);
   fs::remove_all(at("other/left"));
   expectError<InputError>([&] { SequenceReader(at("other")); }, {"right view alone"});
@@ -148,6 +166,14 @@ TEST_F(BadSequence, TimesMustBeOneAFrame) {
   expectRefused({"timestamps.txt", "3 times", "6 frames"});
 }
 
+TEST_F(BadSequence, TimesInMillisecondsAreDoubted) {
+  put(at("timestamps.txt"), "0\n40\n80\n120\n160\n200\n");
+  const auto warnings = SequenceReader(folder_.path()).calibration().warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("timestamps.txt: frames lie 40 s apart"), std::string::npos)
+      << warnings[0];
+}
+
 TEST_F(BadSequence, VideosThatAreNone) {
   TemporaryFolder folder;
   put(folder / "calibration.yaml", smallCalibration());
@@ -167,6 +193,15 @@ TEST_F(BadSequence, VideosOfUnequalLength) {
   makeVideo(folder / "right.avi", {testPair(0).right, testPair(1).right});
   expectError<InputError>([&] { SequenceReader(folder.path()); },
                           {"right.avi", "2 frames", "has 3"});
+}
+
+TEST_F(BadSequence, VideosOfUnequalRate) {
+  TemporaryFolder folder;
+  put(folder / "calibration.yaml", smallCalibration());
+  makeVideo(folder / "left.avi", {testPair(0).left, testPair(1).left, testPair(2).left}, 30);
+  makeVideo(folder / "right.avi", {testPair(0).right, testPair(1).right});
+  expectError<InputError>([&] { SequenceReader(folder.path()); },
+                          {"right.avi", "2 frames", "rates differ, 25 and 30 frames per second"});
 }
 
 TEST_F(BadSequence, ATruncatedVideoEndsWithItsError) {

@@ -48,9 +48,10 @@ inline void makeSequence(const std::filesystem::path& folder, int count) {
   }
 }
 
-/// Motion JPEG at quality 95, 25 frames a second.
-inline void makeVideo(const std::filesystem::path& file, const std::vector<ColourImage>& frames) {
-  cv::VideoWriter writer(file.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 25,
+/// Motion JPEG at quality 95.
+inline void makeVideo(const std::filesystem::path& file, const std::vector<ColourImage>& frames,
+                      double rate_hz = 25) {
+  cv::VideoWriter writer(file.string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), rate_hz,
                          {frames[0].width_px, frames[0].height_px});
   for (const ColourImage& frame : frames) {
     cv::Mat bgr;

@@ -33,6 +33,15 @@ void requireSequence(const SequencePaths& paths, bool uncalibrated) {
     throw OptionError("a sequence needs a calibration. Give it with `calibration=`.");
 }
 
+void requireTwoViews(const SequencePaths& paths) {
+  std::error_code code;
+  if (paths.left.empty() || paths.right.empty() || !paths.right_files.empty()) return;
+  if (!fs::equivalent(paths.left, paths.right, code)) return;
+  throw InputError(say(shown(paths.right), ": is given as left and as right view, but these are ",
+                       "images of two cameras. Give the right one; if both views are in each "
+                       "image of it, give it once."));
+}
+
 void requireCount(std::size_t found, int expected, const fs::path& path, const char* what) {
   if (found == static_cast<std::size_t>(expected)) return;
   throw InputError(say(shown(path), ": has ", found, " ", what, ", but the sequence has ", expected,
@@ -68,6 +77,7 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
   if (options_.layout == "auto" && !paths.layout.empty()) options_.layout = paths.layout;
   options.validate();
   requireSequence(paths, options.uncalibrated);
+  requireTwoViews(paths);
   is_packed_ = !paths.stereo.empty();
   if (is_packed_ && right_offset_ != 0)
     throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but both views of ",
@@ -80,11 +90,12 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
   left_ = depth_alone ? openDepthRelief(first, calibration_.depth_unit_mm)
                       : openView(first, paths.left_files);
   count_ = left_->count();
-  const ViewFiles view{first, left_->files(), count_};
+  const ViewFiles view{first, left_->files(), count_, left_->framesPerSecond()};
   if (!paths.right.empty()) {
     right_ = openView(paths.right, paths.right_files);
     if (paths.right_files.empty())
-      requirePartners(view, {paths.right, right_->files(), right_->count()});
+      requirePartners(view,
+                      {paths.right, right_->files(), right_->count(), right_->framesPerSecond()});
     if (std::abs(right_offset_) >= count_)
       throw OptionError(say("sequence.right_offset is ", options.right_offset, ", but there are ",
                             count_, " images: no two would belong together."));
@@ -106,6 +117,8 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
   if (!paths.timestamps.empty()) {
     times_s_ = readTimestamps(paths.timestamps);
     requireCount(times_s_.size(), count_, paths.timestamps, "times");
+    if (const std::string doubt = timeUnitWarning(times_s_); !doubt.empty())
+      warnings.push_back(say(shown(paths.timestamps), ": ", doubt));
   }
   if (!depth_alone) setCalibration(paths);
   for (std::string& line : warnings) calibration_.warnings.push_back(std::move(line));

@@ -1,7 +1,10 @@
 #include "io/sequences/frame_pairing.h"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
+#include <string>
 
 #include "core/error.h"
 #include "io/files/file_bytes.h"
@@ -46,13 +49,54 @@ void requireSameNumbers(const ViewFiles& view, const ViewFiles& other) {
                        "). Add it or remove this one."));
 }
 
+/// A file whose name is unlike the others, and why.
+struct OddFile {
+  fs::path file;
+  std::string why;
+};
+
+/// Of files most of which have numbers: the first without one, or with that of an earlier one.
+std::optional<OddFile> firstOdd(const Files& files) {
+  std::map<long long, fs::path> numbered;
+  if (2 * numbersOf(files).size() <= files.size()) return std::nullopt;
+  for (const fs::path& file : files) {
+    const auto number = frameNumber(file);
+    if (!number) return OddFile{file, "has no number in its name, unlike the others"};
+    const auto [earlier, is_new] = numbered.emplace(*number, file);
+    if (!is_new)
+      return OddFile{file, "has the number of " + earlier->second.filename().string() + ", " +
+                               std::to_string(*number)};
+  }
+  return std::nullopt;
+}
+
+/// Throws for one odd file in either view.
+void requireNoOddFile(const ViewFiles& view, const ViewFiles& other) {
+  for (const ViewFiles* each : {&view, &other}) {
+    const auto odd = firstOdd(each->files);
+    if (!odd) continue;
+    throw InputError(say(shown(odd->file), ": ", odd->why, ", and the counts differ (", view.count,
+                         " files in ", shown(view.path), ", ", other.count, " in ",
+                         shown(other.path), "). Move it to another folder."));
+  }
+}
+
+/// "Convert ..." for videos of different rates, else "Cut ...".
+std::string adviceFor(const ViewFiles& view, const ViewFiles& other) {
+  if (view.rate_hz <= 0 || other.rate_hz <= 0 || view.rate_hz == other.rate_hz)
+    return "Cut both to the same frames.";
+  return say("Their rates differ, ", other.rate_hz, " and ", view.rate_hz,
+             " frames per second: export both at one rate from the same start.");
+}
+
 }  // namespace
 
 void requirePartners(const ViewFiles& view, const ViewFiles& other) {
   if (allNumbered(view.files) && allNumbered(other.files)) requireSameNumbers(view, other);
-  if (view.count != other.count)
-    throw InputError(say(shown(other.path), ": has ", other.count, " frames, but ",
-                         shown(view.path), " has ", view.count, ". Cut both to the same frames."));
+  if (view.count == other.count) return;
+  requireNoOddFile(view, other);
+  throw InputError(say(shown(other.path), ": has ", other.count, " frames, but ", shown(view.path),
+                       " has ", view.count, ". ", adviceFor(view, other)));
 }
 
 std::vector<fs::path> partnersIn(const fs::path& path, const std::vector<std::string_view>& kinds,

@@ -7,11 +7,12 @@
 
 namespace softscope {
 
-/// One view: path, files (empty for a video) and number of images.
+/// One view: path, files (empty for a video), number of images and their rate.
 struct ViewFiles {
   std::filesystem::path path;
   std::vector<std::filesystem::path> files;
   int count = 0;
+  double rate_hz = 0;  // of a video; 0: unknown
 };
 
 inline const std::vector<std::string_view> kMaskKinds = {".png", ".bmp",  ".jpg", ".jpeg",
@@ -19,7 +20,8 @@ inline const std::vector<std::string_view> kMaskKinds = {".png", ".bmp",  ".jpg"
 inline const std::vector<std::string_view> kDepthKinds = {".png", ".pfm", ".tif", ".tiff", ".npy"};
 
 /// Throws InputError with the first image without a partner for
-/// different counts, and for k-th files with different numbers.
+/// different counts, and for k-th files with different numbers. Different counts of files without
+/// a number for each: names the first without number or with that of another file.
 void requirePartners(const ViewFiles& view, const ViewFiles& other);
 
 /// Mask or depth files of a folder (or a single file), one per image

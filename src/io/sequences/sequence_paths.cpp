@@ -44,6 +44,28 @@ fs::path viewNamed(const fs::path& folder, const std::string& name) {
   return hasEntry(folder / name) ? folder / name : videoNamed(folder, name);
 }
 
+/// First entries of the folder by name, and what to do about them.
+std::string foundIn(const fs::path& folder) {
+  constexpr std::size_t kMostNames = 6;
+  const std::size_t images = filesIn(folder, {kPictureKinds.begin(), kPictureKinds.end()}).size();
+  if (images > 0)
+    return say(" Found there: ", images, " images. A folder of images is one view: give left and ",
+               "right folders. Two views in each image are read from one image or one video.");
+  std::vector<std::string> names;
+  std::error_code code;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
+    const std::string name = entry.path().filename().string();
+    if (name.front() != '.') names.push_back(name + (entry.is_directory(code) ? "/" : ""));
+  }
+  if (names.empty()) return " The folder is empty.";
+  std::sort(names.begin(), names.end());
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i)
+    list += (i == 0 ? "" : ", ") + names[i];
+  return say(" Found there: ", shown(list), names.size() > kMostNames ? ", …" : "",
+             ". Rename the views, or give both and the calibration separately.");
+}
+
 }  // namespace
 
 bool isVideo(const fs::path& file) { return isOneOf(file, kVideoKinds); }
@@ -72,7 +94,8 @@ SequencePaths findSequence(const fs::path& folder) {
     throw InputError(
         say(shown(folder), ": holds ", paths.right.empty() ? "no left view" : "a right view alone",
             ", but left/ and right/ with images, left.mp4 and right.mp4, or stereo.mp4 "
-            "or depth/ are expected."));
+            "or depth/ are expected.",
+            foundIn(folder)));
   if (!paths.left.empty() && paths.right.empty() && paths.depth.empty())
     throw InputError(shown(folder) +
                      ": holds a left view, but neither a right one nor depth/. Add one.");

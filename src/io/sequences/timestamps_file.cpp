@@ -10,7 +10,8 @@
 namespace softscope {
 namespace {
 
-constexpr double kLatestS = 1e11;  // 3000 years; seconds since 1970 are 2e9
+constexpr double kLatestS = 1e11;     // 3000 years; seconds since 1970 are 2e9
+constexpr double kLongestFrameS = 5;  // on average; above, the unit of time is doubtful
 
 /// "Divide by 1000": for the unit that gives a time since 1970.
 std::string unitOf(double time) {
@@ -47,6 +48,14 @@ std::vector<double> parseTimestamps(std::string_view text, const std::string& na
 
 std::vector<double> readTimestamps(const std::filesystem::path& file) {
   return parseTimestamps(readText(file, kTextLimitBytes), shown(file));
+}
+
+std::string timeUnitWarning(const std::vector<double>& times_s) {
+  if (times_s.size() < 2) return {};
+  const double apart_s = (times_s.back() - times_s.front()) / double(times_s.size() - 1);
+  if (apart_s <= kLongestFrameS) return {};
+  return say("frames lie ", std::round(10 * apart_s) / 10,
+             " s apart. Are the timestamps in milliseconds? Then write seconds");
 }
 
 }  // namespace softscope

@@ -13,4 +13,7 @@ namespace softscope {
 std::vector<double> readTimestamps(const std::filesystem::path& file);
 std::vector<double> parseTimestamps(std::string_view text, const std::string& name);
 
+/// Warning for frames that are many seconds apart, else empty.
+std::string timeUnitWarning(const std::vector<double>& times_s);
+
 }  // namespace softscope
