@@ -57,14 +57,36 @@ TEST(StereoPacking, AutoUsesTheCalibrationsSize) {
   const ColourImage flat(2 * kWidth, kHeight, Rgb8{9, 9, 9});  // nothing to correlate
   EXPECT_EQ(choosePacking(flat, "auto", false, {kWidth, kHeight}, "x").layout,
             StereoLayout::kSideBySide);
-  const auto full = choosePacking(pair.left, "auto", false, {kWidth, kHeight}, "x");
+  ColourImage rows_of_both = pair.left;
+  for (int v = 1; v < kHeight; v += 2) std::copy_n(pair.right.row(v), kWidth, rows_of_both.row(v));
+  const auto full = choosePacking(rows_of_both, "auto", false, {kWidth, kHeight}, "x");
   EXPECT_EQ(full.layout, StereoLayout::kInterlaced);
   EXPECT_TRUE(full.full_height);
   expectError<InputError>(
       [&] {
         choosePacking(flat, "auto", false, {100, 100}, "v.mp4");
       },
-      {"v.mp4", "320 x 120", "100 x 100"});
+      {"v.mp4", "320 x 120", "100 x 100", "black borders"});
+}
+
+TEST(StereoPacking, OneViewOfTheCalibrationsSizeIsNotInterlaced) {
+  const ColourImage left = testPair(0).left, black(kWidth, kHeight);
+  const ExpectedView view{kWidth, kHeight};
+  for (const ColourImage& image : {left, black})
+    expectError<InputError>([&] { choosePacking(image, "auto", false, view, "left.mp4"); },
+                            {"left.mp4: one view of 160 x 120", "right image is missing",
+                             "sequence.layout=interlaced"});
+  EXPECT_TRUE(choosePacking(left, "interlaced", false, view, "x").full_height);
+}
+
+TEST(StereoPacking, SqueezedViewsAreNamed) {
+  const StereoPair wide{makeTexture(kWidth / 2, kHeight, 0, 3),
+                        makeTexture(kWidth / 2, kHeight, 5, 3)};
+  expectError<InputError>(
+      [&] {
+        choosePacking(sideBySide(wide), "auto", false, {kWidth, kHeight}, "v.mp4");
+      },
+      {"v.mp4", "halves look alike", "side-by-side", "half the width"});
 }
 
 TEST(StereoPacking, AGivenLayoutWins) {
@@ -106,6 +128,13 @@ TEST(StereoPacking, AutoTellsRealScopes) {
     EXPECT_EQ(chosen(sideBySide(pair)), StereoLayout::kSideBySide);
     EXPECT_EQ(chosen(topBottom(pair)), StereoLayout::kTopBottom);
     EXPECT_EQ(chosen(interlaced(pair)), StereoLayout::kInterlaced);
+    const ExpectedView view{pair.left.width_px, pair.left.height_px};
+    ColourImage rows = pair.left;
+    for (int v = 1; v < rows.height_px; v += 2)
+      std::copy_n(pair.right.row(v), rows.width_px, rows.row(v));
+    EXPECT_TRUE(choosePacking(rows, "auto", false, view, "x").full_height);
+    for (const ColourImage& one : {pair.left, pair.right})
+      expectError<InputError>([&] { choosePacking(one, "auto", false, view, "x"); }, {"one view"});
   }
 }
 

@@ -122,7 +122,24 @@ StereoLayout mostSimilar(const ColourImage& image, const std::vector<StereoLayou
   if (best) return *best;
   throw InputError(say(
       name, ": ambiguous arrangement of two views in the ", image.width_px, " x ", image.height_px,
-      " pixels. Give sequence.layout: side-by-side, top-bottom or ", "interlaced."));
+      " pixels. Give sequence.layout: side-by-side, top-bottom or ", "interlaced; crop black ",
+      "borders and gaps; if this is one view, give the right one as well."));
+}
+
+/// Of an image with the size of one view, in which interlaced rows were the only layout.
+[[noreturn]] void refuseOneView(const ColourImage& image, const std::string& name) {
+  std::string squeezed;
+  for (const StereoLayout layout : {StereoLayout::kSideBySide, StereoLayout::kTopBottom})
+    if (canPart(image, layout) && similarity(image, layout) > kLeastSimilarity)
+      squeezed =
+          say(" Its halves look alike: if it is ", nameOf(layout), " with views of half the ",
+              layout == StereoLayout::kSideBySide ? "width" : "height",
+              ", enlarge them to the calibration's size first.");
+  throw InputError(
+      say(name, ": one view of ", image.width_px, " x ", image.height_px, " pixels is ",
+          "there, the size of the calibration; the right image is missing. Give it as ", "well.",
+          squeezed, " If rows of two views alternate in it, ",
+          "sequence.layout=interlaced states it."));
 }
 
 StereoLayout findLayout(const ColourImage& image, const ExpectedView& view,
@@ -131,8 +148,13 @@ StereoLayout findLayout(const ColourImage& image, const ExpectedView& view,
   if (layouts.empty() && view.width_px > 0)
     throw InputError(say(name, ": ", image.width_px, " x ", image.height_px, " pixels hold no two ",
                          "views of the calibration's ", view.width_px, " x ", view.height_px,
-                         ". Give the calibration made for this size."));
-  if (layouts.size() == 1 && view.width_px > 0) return layouts.front();
+                         ". Give the calibration made for this size; if black borders or a gap ",
+                         "surround the views, crop them."));
+  const bool one_layout = layouts.size() == 1 && view.width_px > 0;
+  if (one_layout && layouts.front() == StereoLayout::kInterlaced &&
+      similarity(image, StereoLayout::kInterlaced) <= kLeastSimilarity)
+    refuseOneView(image, name);
+  if (one_layout) return layouts.front();
   return mostSimilar(image, layouts, name);
 }
 

@@ -32,7 +32,8 @@ struct ExpectedView {
 
 /// `layout`: "side-by-side", "top-bottom", "interlaced", or "auto": by the size in the calibration,
 /// the aspect ratio of a view (0.8 to 2.2), then by the similarity of the parts with horizontal
-/// displacement. Throws InputError if none fits or it is ambiguous, OptionError for another name.
+/// displacement, which interlaced rows must show even if their size alone fits: those of one view
+/// have none. Throws InputError if none fits or it is ambiguous, OptionError for another name.
 StereoPacking choosePacking(const ColourImage& packed, const std::string& layout, bool right_first,
                             const ExpectedView& view, const std::string& name);
 
