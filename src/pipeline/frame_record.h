@@ -19,7 +19,7 @@ enum class FrameStatus {
   kSkippedResidual,  // located, but the residual of the warp is too large
   kUnconfirmed,      // located and warped, but the model does not agree with the frame
   kUnreadable,       // its files are missing or damaged
-  kUnpaired,         // no image of the other view at the same time
+  kUnpaired,         // no image of the other view at the same time, or one stands still
 };
 
 const char* toString(FrameStatus status);

@@ -1,7 +1,8 @@
 // toolkit/inspection/describe_sequence.cpp: facts,
 // missing parts and plausibility of a sequence folder.
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <set>
 
 #include "core/error.h"
@@ -21,7 +22,7 @@ namespace softscope {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kSlowestRate = 0.2;  // frames per second; below, the unit of time is doubtful
+constexpr int kFirstPairs = 10;  // of packed views, compared for one that stands still
 
 std::string layoutOf(const SequencePaths& paths) {
   if (!paths.stereo.empty()) return "both views in " + paths.stereo.filename().string();
@@ -46,9 +47,6 @@ void addTimes(const SequencePaths& paths, FactSheet& facts) {
   const double rate = duration_s > 0 ? double(times_s.size() - 1) / duration_s : 0;
   facts.add("timestamps", fixed(duration_s, 2) + " s, " + fixed(rate, 2) + " frames a second",
             "duration_s", duration_s);
-  if (rate > 0 && rate < kSlowestRate)
-    facts.warn("frames lie " + fixed(1 / rate, 1) +
-               " s apart. Are the timestamps in milliseconds? Then write seconds");
 }
 
 void addCount(const fs::path& folder, const std::string& label, const std::string& key,
@@ -110,14 +108,19 @@ void addRows(const Frame& frame, const StereoCalibration& calibration, FactSheet
                "`softscope depth` reduces the error");
 }
 
-/// One warning per unreadable frame.
+/// One warning per unreadable frame, and one for all frames with a view that stands still.
 void checkFrames(SequenceReader& reader, FactSheet& facts) {
-  int bad = 0;
+  int bad = 0, bad_views = 0;
   while (const auto result = reader.next()) {
+    bad_views += result->bad_views ? 1 : 0;
     if (result->ok() || result->unpaired) continue;
     facts.warn("frame " + std::to_string(result->index) + ": " + result->error);
     ++bad;
   }
+  facts.addQuietly("frames_with_bad_views", bad_views);
+  if (bad_views > 0)
+    facts.warn("in " + std::to_string(bad_views) + " of " + std::to_string(reader.frameCount()) +
+               " frames, one view stands still or both are equal; they are not reconstructed");
   facts.add("unreadable frames", "unreadable_frames", bad);
   if (bad > 0)
     facts.fail(std::to_string(bad) + " of " + std::to_string(reader.frameCount()) +
@@ -134,6 +137,39 @@ void addView(const fs::path& view, const std::string& key, FactSheet& facts) {
   }
 }
 
+/// Numbers of file names that are missing in both views, if most are there.
+void addGaps(const SequencePaths& paths, FactSheet& facts) {
+  if (!fs::is_directory(paths.left)) return;
+  std::set<long long> numbers;
+  for (const fs::path& file : filesIn(paths.left, {kPictureKinds.begin(), kPictureKinds.end()}))
+    if (const auto number = frameNumber(file)) numbers.insert(*number);
+  if (numbers.size() < 3) return;
+  long long step = *numbers.rbegin() - *numbers.begin();
+  for (auto it = std::next(numbers.begin()); it != numbers.end(); ++it)
+    step = std::min(step, *it - *std::prev(it));
+  long long missing = 0, first = 0;
+  for (auto it = std::next(numbers.begin()); it != numbers.end(); ++it) {
+    const long long left_out = (*it - *std::prev(it)) / step - 1;
+    if (left_out > 0 && missing == 0) first = *std::prev(it) + step;
+    missing += left_out;
+  }
+  if (missing == 0 || missing >= (long long)numbers.size()) return;
+  facts.missing("images of " + std::to_string(missing) + " numbers in both views, the first is " +
+                std::to_string(first) + "; the images around them are neighbouring frames");
+}
+
+/// Warns of the first of the next pairs in one file whose views stand still.
+void addStandstill(const SequencePaths& paths, SequenceReader& reader, FactSheet& facts) {
+  if (paths.stereo.empty()) return;
+  for (int i = 0; i < kFirstPairs; ++i) {
+    const auto next = reader.next();
+    if (!next) return;
+    if (!next->bad_views) continue;
+    facts.warn("frame " + std::to_string(next->index) + ": " + next->error);
+    return;
+  }
+}
+
 void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool check_all,
                    FactSheet& facts) {
   SequenceOptions options;
@@ -142,8 +178,10 @@ void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool c
   const ViewRelation views = relateViews(paths, measured, options);
   SequenceReader reader(paths, options);
   auto first = reader.next();
-  while (first && first->unpaired) first = reader.next();
-  if (!first || !first->ok()) throw InputError(first ? first->error : folder + ": has no frames");
+  std::string unpaired;
+  for (; first && first->unpaired; first = reader.next())
+    if (unpaired.empty()) unpaired = folder + ": has no pair, " + first->error;
+  if (!first || !first->ok()) throw InputError(first ? first->error : unpaired);
   const ColourImage& left = first->frame.pair.left;
   facts.add("frames", "frames", reader.totalCount());
   facts.add("size", std::to_string(left.width_px) + " x " + std::to_string(left.height_px) + " px",
@@ -151,9 +189,11 @@ void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool c
   facts.addQuietly("height_px", left.height_px);
   if (!paths.right.empty()) facts.addQuietly("right_offset", options.rightOffset());
   for (const std::string& warning : views.warnings) facts.warn(warning);
+  if (!views.bad_views.empty()) facts.warn(views.bad_views);
   addCalibration(reader.calibration(), "calibration", facts);
   addRows(first->frame, reader.calibration(), facts);
-  if (check_all) checkFrames(reader, facts);
+  if (check_all) return checkFrames(reader, facts);
+  addStandstill(paths, reader, facts);
 }
 
 }  // namespace
@@ -172,6 +212,7 @@ FactSheet describeSequence(const std::string& folder, bool check_all) {
     addView(paths.right, "right", facts);
   }
   addTimes(paths, facts);
+  addGaps(paths, facts);
   addExtras(folder, paths, facts);
   return facts;
 }

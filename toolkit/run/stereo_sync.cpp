@@ -37,6 +37,7 @@ void addMoment(const Window& window, const Rectifier& rectifier, SynchronyMeter&
 struct ViewMeter {
   SynchronyMeter meter;
   PinholeCamera camera;
+  std::string bad_views;  // reason of the first frame with them
 };
 
 ViewMeter measure(const SequencePaths& paths, const SequenceOptions& options,
@@ -48,7 +49,7 @@ ViewMeter measure(const SequencePaths& paths, const SequenceOptions& options,
   const int step = std::max(1, std::min(reader.frameCount(), kFrames) / kMoments);
   const Rectifier rectifier(reader.calibration());
   const PinholeCamera& camera = rectifier.rig().left;
-  ViewMeter views{SynchronyMeter(stereo.forWidth(camera.width_px).disparity_max_px), camera};
+  ViewMeter views{SynchronyMeter(stereo.forWidth(camera.width_px).disparity_max_px), camera, {}};
   Window window;
   int moments = 0;
   for (int i = 0; i < kFrames; ++i) {
@@ -56,6 +57,8 @@ ViewMeter measure(const SequencePaths& paths, const SequenceOptions& options,
     if (!result) break;
     window.push_back(std::move(result->frame.pair));
     if (!result->ok()) window.clear();
+    if (result->bad_views && views.bad_views.empty())
+      views.bad_views = say("frame ", result->index, ": ", result->error);
     if (window.size() > SynchronyMeter::kOffsets) window.pop_front();
     if (window.size() < SynchronyMeter::kOffsets || i % step != 0) continue;
     addMoment(window, rectifier, views.meter);
@@ -115,7 +118,7 @@ std::string scaleWarning(const RowDoubt& doubt) {
 
 ViewRelation relationAt(const ViewMeter& views, int offset) {
   const SynchronyMeter& meter = views.meter;
-  ViewRelation relation{meter.rowsAt(offset), {}};
+  ViewRelation relation{meter.rowsAt(offset), {}, views.bad_views};
   const RowDoubt doubt = meter.doubtAt(offset);
   if (doubt.is_strong) {
     relation.warnings.push_back(rowsWarning(doubt));

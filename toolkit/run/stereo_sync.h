@@ -14,6 +14,8 @@ namespace softscope {
 struct ViewRelation {
   RowPlane rows;                      // of the rectified views, common to all frames
   std::vector<std::string> warnings;  // views are not synchronous; rows do not correspond
+  // Reason of the first frame read for this whose views stand still or are equal; empty if none.
+  std::string bad_views;
 };
 
 /// For two views, unless depth comes from the files of the sequence: estimates rows, and for

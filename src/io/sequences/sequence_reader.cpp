@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "io/sequences/bounded_queue.h"
 #include "io/sequences/frame_loader.h"
+#include "io/sequences/view_progress.h"
 #include "io/text/message.h"
 
 namespace softscope {
@@ -32,6 +33,23 @@ int firstFrom(const FrameRange& range, int first) {
   return index < range.end ? index : first;
 }
 
+/// Frame before the first one of the range, as if the range had begun earlier; negative: none.
+int frameBefore(const FrameRange& range) {
+  const int before = range.begin - range.step;
+  return range.holdsOut(before) ? before - range.step : before;
+}
+
+/// A frame as read, before it is compared with the one before.
+struct LoadedFrame {
+  FrameResult result;
+  std::optional<PairDigest> digest;  // of two views without depth files
+};
+
+std::optional<PairDigest> digestOfFrame(const Frame& frame) {
+  if (frame.pair.right.empty() || !frame.depth_mm.empty()) return std::nullopt;
+  return digestOf(frame.pair);
+}
+
 }  // namespace
 
 class SequenceReader::Impl {
@@ -40,10 +58,13 @@ class SequenceReader::Impl {
       : loader_(paths, options),
         range_(rangeWithin(options.frames, loader_.count())),
         queue_(static_cast<std::size_t>(options.read_ahead)) {
-    first_.index = firstFrom(range_, loader_.firstWithPartner());
-    first_.time_s = loader_.timeOf(first_.index);
-    first_.names = loader_.namesOf(first_.index);
-    first_.frame = loader_.load(first_.index);  // throws: the fault concerns the whole sequence
+    FrameResult& first = first_.result;
+    first.index = firstFrom(range_, loader_.firstWithPartner());
+    first.time_s = loader_.timeOf(first.index);
+    first.names = loader_.namesOf(first.index);
+    if (first.index == range_.begin) readBefore(frameBefore(range_));
+    first.frame = loader_.load(first.index);  // throws: the fault concerns the whole sequence
+    first_.digest = digestOfFrame(first.frame);
     calibration_ = loader_.calibration();
     thread_ = std::thread([this] { readAhead(); });
   }
@@ -58,19 +79,38 @@ class SequenceReader::Impl {
   int totalCount() const { return loader_.count(); }
 
   std::optional<FrameResult> next() {
-    std::optional<std::future<FrameResult>> begun = queue_.pop();
+    std::optional<std::future<LoadedFrame>> begun = queue_.pop();
     // The queue is closed after failure_ is set, so its mutex orders both.
     if (!begun && failure_) std::rethrow_exception(failure_);
     if (!begun) return std::nullopt;
-    return begun->get();
+    LoadedFrame loaded = begun->get();
+    compareWithBefore(&loaded);
+    return std::move(loaded.result);
   }
 
  private:
+  void readBefore(int index) {
+    if (index < 0 || !loader_.hasPartner(index)) return;
+    const LoadedFrame loaded = load(index);
+    if (loaded.digest) before_ = EarlierPair{index, *loaded.digest};
+  }
+  void compareWithBefore(LoadedFrame* loaded) {
+    FrameResult& result = loaded->result;
+    const std::optional<EarlierPair> before = std::exchange(before_, std::nullopt);
+    if (!loaded->digest) return;
+    before_ = EarlierPair{result.index, *loaded->digest};
+    result.error = viewProgressFault(before, *loaded->digest, result.names);
+    if (result.ok()) return;
+    result.frame = {};
+    result.unpaired = result.bad_views = true;
+  }
+
   void readAhead() {
     try {
       bool go_on = true;
       for (int index = range_.begin; index < range_.end && go_on; index += range_.step)
-        if (!range_.holdsOut(index)) go_on = index == first_.index ? give(first_) : read(index);
+        if (!range_.holdsOut(index))
+          go_on = index == first_.result.index ? give(first_) : read(index);
     } catch (...) {
       failure_ = std::current_exception();
     }
@@ -81,35 +121,39 @@ class SequenceReader::Impl {
   bool read(int index) {
     if (loader_.readsInAnyOrder() && threadCount() > 1)
       return queue_.push(std::async(std::launch::async, [this, index] { return load(index); }));
-    FrameResult result = load(index);
-    const bool go_on = result.ok() || index < first_.index || loader_.survivesErrors();
-    return give(result) && go_on;
+    LoadedFrame loaded = load(index);
+    const bool go_on =
+        loaded.result.ok() || index < first_.result.index || loader_.survivesErrors();
+    return give(loaded) && go_on;
   }
-  bool give(FrameResult& result) {
-    std::promise<FrameResult> done;
-    done.set_value(std::move(result));
+  bool give(LoadedFrame& loaded) {
+    std::promise<LoadedFrame> done;
+    done.set_value(std::move(loaded));
     return queue_.push(done.get_future());
   }
 
-  FrameResult load(int index) {
-    FrameResult result;
+  LoadedFrame load(int index) {
+    LoadedFrame loaded;
+    FrameResult& result = loaded.result;
     result.index = index;
     result.time_s = loader_.timeOf(index);
     result.names = loader_.namesOf(index);
     result.unpaired = !loader_.hasPartner(index);
     try {
       result.frame = loader_.load(index);
+      loaded.digest = digestOfFrame(result.frame);
     } catch (const InputError& error) {
       result.error = error.what();
     }
-    return result;
+    return loaded;
   }
 
   FrameLoader loader_;  // after the constructor used by readers only, except count()
   FrameRange range_;
-  FrameResult first_;
+  LoadedFrame first_;
+  std::optional<EarlierPair> before_;  // of the frame that next() returned last
   StereoCalibration calibration_;
-  BoundedQueue<std::future<FrameResult>> queue_;  // in order; its readers end before the loader
+  BoundedQueue<std::future<LoadedFrame>> queue_;  // in order; its readers end before the loader
   std::exception_ptr failure_;
   std::thread thread_;
 };

@@ -16,12 +16,13 @@ namespace softscope {
 
 /// Frame, or the reason for a failure.
 struct FrameResult {
-  int index = 0;          // position in the sequence, from 0
-  Frame frame;            // empty after an error
-  double time_s = 0;      // of the frame, also if it is unreadable
-  FrameNames names;       // also if the frame is unreadable
-  bool unpaired = false;  // no error: the other view has no image of this time
-  std::string error;      // one line; empty without an error
+  int index = 0;           // position in the sequence, from 0
+  Frame frame;             // empty after an error
+  double time_s = 0;       // of the frame, also if it is unreadable
+  FrameNames names;        // also if the frame is unreadable
+  bool unpaired = false;   // no error: the other view has no image of this time
+  bool bad_views = false;  // and unpaired: a view stands still, or both are equal
+  std::string error;       // one line; empty without an error
 
   bool ok() const { return error.empty(); }
 };
@@ -30,7 +31,9 @@ struct FrameResult {
 /// their faults and those of the whole sequence: missing images, different counts, sizes
 /// that contradict the calibration, an unreadable video, a mask of another size. A later
 /// unreadable frame is a result with an error; the following images are read, a video
-/// ends there. At most options.read_ahead frames are queued. For one consumer thread.
+/// ends there. So is a pair with a fault of io/sequences/view_progress.h, compared with the frame
+/// before it in the range, of the first one with the frame a step before; not with depth files. At
+/// most options.read_ahead frames are queued. For one consumer thread.
 class SequenceReader {
  public:
   SequenceReader(const SequencePaths& paths, const SequenceOptions& options);

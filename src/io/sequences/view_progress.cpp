@@ -1,0 +1,66 @@
+#include "io/sequences/view_progress.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "io/text/message.h"
+
+namespace softscope {
+namespace {
+
+constexpr std::uint64_t kDigestPrime = 0x100000001b3;  // of FNV-1a, here over words of 8 bytes
+
+std::uint64_t mixed(std::uint64_t digest, std::uint64_t word) {
+  digest = (digest ^ word) * kDigestPrime;
+  return digest ^ digest >> 32;
+}
+
+/// Four digests of every fourth word, which a processor computes in parallel.
+std::uint64_t digestOfView(const ColourImage& image) {
+  using Words = std::array<std::uint64_t, 4>;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(image.values.data());
+  const std::size_t count = image.size() * sizeof(Rgb8);
+  Words lanes{1, 2, 3, 4}, words{};
+  for (std::size_t begin = 0; begin < count; begin += sizeof words) {
+    words = {};
+    std::memcpy(words.data(), bytes + begin, std::min(sizeof words, count - begin));
+    for (std::size_t i = 0; i < lanes.size(); ++i) lanes[i] = mixed(lanes[i], words[i]);
+  }
+  return mixed(mixed(lanes[0], lanes[1]), mixed(lanes[2], lanes[3]));
+}
+
+bool isFlat(const ColourImage& image) {
+  return std::all_of(image.values.begin(), image.values.end(),
+                     [&](const Rgb8& colour) { return colour == image.values.front(); });
+}
+
+/// "right (000005.png)"; "right" for both views in one file.
+std::string viewNamed(const char* side, const std::string& file) {
+  return file.empty() ? say("the ", side, " image") : say("the ", side, " image (", file, ")");
+}
+
+}  // namespace
+
+PairDigest digestOf(const StereoPair& pair) {
+  return {digestOfView(pair.left), digestOfView(pair.right), isFlat(pair.left)};
+}
+
+std::string viewProgressFault(const std::optional<EarlierPair>& before, const PairDigest& now,
+                              const FrameNames& names) {
+  const std::string left = viewNamed("left", names.right.empty() ? "" : names.left);
+  const std::string right = viewNamed("right", names.right);
+  if (now.left == now.right && !now.left_is_flat)
+    return say(left, " and ", right, " are equal, but two views of a scene differ: one view was ",
+               "given or recorded twice. Give the left and the right one.");
+  if (!before) return {};
+  const bool left_stands = now.left == before->digest.left;
+  const bool right_stands = now.right == before->digest.right;
+  if (left_stands == right_stands) return {};
+  return say(right_stands ? right : left, " is that of frame ", before->frame, ", the ",
+             right_stands ? "left" : "right",
+             " one is not: the recording of one view stands still. Record or export both views "
+             "again, or select other frames with `frames=`.");
+}
+
+}  // namespace softscope
