@@ -74,13 +74,15 @@ FactSheet::Json frameJson(const DepthResult& measured) {
   return json;
 }
 
-std::string coverageWarning(const DepthResult& measured) {
-  const std::string advice =
-      ": are left and right of one moment, not exchanged, not black, and is the calibration this "
+bool hasLittleDepth(const FrameCoverage& coverage) { return coverage.share < kLeastCoverage; }
+
+std::string coverageWarning(const FrameCoverage& coverage, const std::string& causes) {
+  if (!hasLittleDepth(coverage)) return {};
+  const std::string unknown =
+      "are left and right of one moment, not exchanged, not black, and is the calibration this "
       "scope's? `softscope info` tells";
-  const FrameCoverage coverage = coverageOf(measured);
+  const std::string advice = ": " + (causes.empty() ? unknown : causes);
   if (coverage.measured_pixels == 0) throw InputError("no pixel could be measured" + advice);
-  if (coverage.share >= kLeastCoverage) return {};
   return "only " + fixed(100 * coverage.share, 1) + " % of the pixels could be measured" + advice;
 }
 

@@ -23,8 +23,12 @@ FrameStatistics statisticsOf(const DepthResult& measured);
 /// Coverage, depth percentiles, vertical disparity, milliseconds per stage; units in key names.
 FactSheet::Json frameJson(const DepthResult& measured);
 
-/// Warning for a very small coverage, else empty. Throws InputError if no pixel was measured.
-std::string coverageWarning(const DepthResult& measured);
+/// True for a very small coverage.
+bool hasLittleDepth(const FrameCoverage& coverage);
+
+/// Warning for a very small coverage, else empty, with `causes` if these are known. Throws
+/// InputError if no pixel was measured.
+std::string coverageWarning(const FrameCoverage& coverage, const std::string& causes);
 
 /// Warning for a lasting vertical disparity above RowAlignment::kWarnAbovePx, else empty.
 std::string rowWarning(const DepthResult& measured);

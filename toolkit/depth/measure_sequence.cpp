@@ -18,6 +18,7 @@
 #include "toolkit/run/out_folder.h"
 #include "toolkit/run/repeated_warnings.h"
 #include "toolkit/run/stereo_sync.h"
+#include "toolkit/run/view_faults.h"
 
 namespace softscope {
 namespace {
@@ -54,8 +55,9 @@ class SequenceMeasurement {
   DepthEstimator estimatorFor(const SequenceReader& reader) const;
   void measureAll(SequenceReader& reader, DepthEstimator& estimator, const DepthOutputs& outputs,
                   DepthRecord& record);
-  void measureOne(const FrameResult& result, DepthEstimator& estimator, const DepthOutputs& outputs,
-                  DepthRecord& record);
+  void measureOne(const FrameResult& result, const StereoCalibration& calibration,
+                  DepthEstimator& estimator, const DepthOutputs& outputs, DepthRecord& record);
+  std::string faultsOf(const FrameResult& result, const StereoCalibration& calibration) const;
   std::string prefixOf(int index) const {
     return options_.numbered ? numberedName(index, "_") : "";
   }
@@ -143,7 +145,7 @@ void SequenceMeasurement::measureAll(SequenceReader& reader, DepthEstimator& est
     if (!result) break;
     std::string error = result->error;
     if (result->ok()) try {
-        measureOne(*result, estimator, outputs, record);
+        measureOne(*result, reader.calibration(), estimator, outputs, record);
       } catch (const InputError& problem) {
         error = problem.what();
       } catch (const BackendError& problem) {
@@ -163,14 +165,24 @@ void SequenceMeasurement::measureAll(SequenceReader& reader, DepthEstimator& est
   warnings_.conclude(where);
 }
 
-void SequenceMeasurement::measureOne(const FrameResult& result, DepthEstimator& estimator,
-                                     const DepthOutputs& outputs, DepthRecord& record) {
+std::string SequenceMeasurement::faultsOf(const FrameResult& result,
+                                          const StereoCalibration& calibration) const {
+  const bool right_first = options_.settings.sequence.right_first;
+  return viewFaults(result.frame, result.names, {calibration, options_.sequence, right_first});
+}
+
+void SequenceMeasurement::measureOne(const FrameResult& result,
+                                     const StereoCalibration& calibration,
+                                     DepthEstimator& estimator, const DepthOutputs& outputs,
+                                     DepthRecord& record) {
   const DepthResult measured = estimator.measure(result.frame);
   if (!options_.range)
     options_.range = rangeForAll(depthRangeToShow(measured.depth.depth_mm), options_.numbered);
   if (const std::string warning = rowWarning(measured); !warning.empty())
     warnings_.add("rows differ", result.index, warning);
-  if (const std::string warning = coverageWarning(measured); !warning.empty()) {
+  const FrameCoverage coverage = coverageOf(measured);
+  const std::string causes = hasLittleDepth(coverage) ? faultsOf(result, calibration) : "";
+  if (const std::string warning = coverageWarning(coverage, causes); !warning.empty()) {
     warnings_.add("little depth", result.index, warning);
     record.addWarning("frame " + std::to_string(result.index) + ": " + warning);
   }

@@ -142,7 +142,8 @@ std::optional<FrameReport> Reconstructor::process(Sequence& sequence) {
     throw InputError(current->error +
                      "; the sequence was removed, or its disk. finish() completes "
                      "the run with the frames before");
-  return impl_->add(processFrame(*current, source.frames, impl_->loop), current->names);
+  const ViewOrigin views{source.reader.calibration(), source.paths, source.options.right_first};
+  return impl_->add(processFrame(*current, source.frames, views, impl_->loop), current->names);
 }
 
 FrameReport Reconstructor::process(const FrameView& view) {

@@ -17,6 +17,7 @@
 #include "toolkit/inspection/describe_file.h"
 #include "toolkit/run/dataset_truth.h"
 #include "toolkit/run/stereo_sync.h"
+#include "toolkit/run/view_faults.h"
 
 namespace softscope {
 namespace {
@@ -88,16 +89,20 @@ void addExtras(const std::string& folder, const SequencePaths& paths, FactSheet&
                 std::string("groundtruth.") + fs::path(name).stem().string(), true);
 }
 
-void addRows(const Frame& frame, const StereoCalibration& calibration, FactSheet& facts) {
+void addRows(const FrameResult& first, const ViewOrigin& source, FactSheet& facts) {
+  const Frame& frame = first.frame;
+  const StereoCalibration& calibration = source.calibration;
   if (frame.pair.right.empty()) return;
   const StereoPair rectified = Rectifier(calibration).rectify(frame.pair);
   const RowAlignment rows =
       measureRowAlignment(toGray(rectified.left), toGray(rectified.right),
                           StereoOptions().forWidth(rectified.left.width_px).disparity_max_px);
   if (!rows.known()) {
+    const std::string faults = viewFaults(frame, first.names, source);
     facts.warn(
-        "left and right views hardly match in the first frame. Are they of one moment, and "
-        "not exchanged?");
+        "left and right views hardly match in the first frame. Are they of one moment, and not "
+        "exchanged?" +
+        (faults.empty() ? "" : " Measured: " + faults));
     return;
   }
   facts.add("rows differ by", fixed(rows.mean_row_difference_px, 2) + " px in the first frame",
@@ -191,7 +196,9 @@ void addFirstFrame(const std::string& folder, const SequencePaths& paths, bool c
   for (const std::string& warning : views.warnings) facts.warn(warning);
   if (!views.bad_views.empty()) facts.warn(views.bad_views);
   addCalibration(reader.calibration(), "calibration", facts);
-  addRows(first->frame, reader.calibration(), facts);
+  addRows(*first, {reader.calibration(), paths, options.right_first}, facts);
+  if (const std::string hidden = maskFault(first->frame.mask); !hidden.empty())
+    facts.warn("in the first frame, " + hidden);
   if (check_all) return checkFrames(reader, facts);
   addStandstill(paths, reader, facts);
 }

@@ -59,9 +59,9 @@ class SequenceRun {
                                          const std::string& settings) const;
   void skipDone(const Checkpoint& earlier);
   std::unique_ptr<ReconstructionBackend> backendOf(const StereoCalibration& calibration) const;
-  void reconstructAll(FrameWindow& frames, int frame_count, Reconstructor& reconstructor,
-                      RunFolder& folder, RunRecord& record, const std::string& digest,
-                      int next_frame);
+  void reconstructAll(const SequenceReader& reader, FrameWindow& frames,
+                      Reconstructor& reconstructor, RunFolder& folder, RunRecord& record,
+                      const std::string& digest, int next_frame);
   ReconstructedRun finish(bool nothing, RunFolder& folder, RunRecord& record) const;
 
   ReconstructOptions options_;
@@ -147,13 +147,16 @@ ReconstructedRun SequenceRun::run() {
     record.set("resumed_at_frame", earlier->next_frame);
     for (const FrameRecord& frame : folder.earlierFrames()) record.add(frame);
   }
-  reconstructAll(frames, reader.frameCount(), reconstructor, folder, record, digest, first_frame);
+  reconstructAll(reader, frames, reconstructor, folder, record, digest, first_frame);
   return finish(reconstructor.backend().empty(), folder, record);
 }
 
-void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstructor& reconstructor,
-                                 RunFolder& folder, RunRecord& record, const std::string& digest,
-                                 int next_frame) {
+void SequenceRun::reconstructAll(const SequenceReader& reader, FrameWindow& frames,
+                                 Reconstructor& reconstructor, RunFolder& folder, RunRecord& record,
+                                 const std::string& digest, int next_frame) {
+  const int frame_count = reader.frameCount();
+  const ViewOrigin views{reader.calibration(), options_.sequence,
+                         options_.settings.sequence.right_first};
   int processed = 0;
   bool at_end = all_done_;
   bool wanted = reportProgress(listener_.progress, 0, frame_count);
@@ -164,7 +167,7 @@ void SequenceRun::reconstructAll(FrameWindow& frames, int frame_count, Reconstru
     if (input_gone_) break;
     FrameRecord frame;
     try {
-      frame = processFrame(*result, frames, reconstructor);
+      frame = processFrame(*result, frames, views, reconstructor);
     } catch (const BackendError& error) {
       failure_ = error.what();
       break;

@@ -4,6 +4,19 @@
 #include "toolkit/run/run_tables.h"
 
 namespace softscope {
+namespace {
+
+constexpr double kLittleDepth = 0.05;  // coverage below which the images are examined
+
+/// Adds the faults of the views to the reason of a frame with little depth.
+void explainNoDepth(const FrameResult& current, const ViewOrigin& source, FrameRecord* frame) {
+  if (frame->status != FrameStatus::kSkippedDepth || frame->depth.coverage() >= kLittleDepth)
+    return;
+  const std::string faults = viewFaults(current.frame, current.names, source);
+  if (!faults.empty()) frame->reason += ": " + faults;
+}
+
+}  // namespace
 
 bool wasDeleted(const FrameResult& frame, const SequencePaths& sequence) {
   if (frame.ok()) return false;
@@ -14,8 +27,12 @@ bool wasDeleted(const FrameResult& frame, const SequencePaths& sequence) {
 }
 
 FrameRecord processFrame(const FrameResult& current, const FrameWindow& frames,
-                         Reconstructor& reconstructor) {
-  if (current.ok()) return reconstructor.process(current.frame, frames.upcoming());
+                         const ViewOrigin& source, Reconstructor& reconstructor) {
+  if (current.ok()) {
+    FrameRecord frame = reconstructor.process(current.frame, frames.upcoming());
+    explainNoDepth(current, source, &frame);
+    return frame;
+  }
   return reconstructor.skip(current.index, current.error, current.time_s,
                             current.unpaired ? FrameStatus::kUnpaired : FrameStatus::kUnreadable);
 }

@@ -6,6 +6,7 @@
 #include "pipeline/reconstructor.h"
 #include "toolkit/run/run_folder.h"
 #include "toolkit/run/run_record.h"
+#include "toolkit/run/view_faults.h"
 
 namespace softscope {
 
@@ -13,9 +14,10 @@ namespace softscope {
 bool wasDeleted(const FrameResult& frame, const SequencePaths& sequence);
 
 /// Processes the current frame of `frames`; the depth of those that follow starts in parallel.
-/// Skips an unreadable frame with its reason. Throws BackendError.
+/// Skips an unreadable frame with its reason; the reason of one without depth has the faults of its
+/// views. Throws BackendError.
 FrameRecord processFrame(const FrameResult& current, const FrameWindow& frames,
-                         Reconstructor& reconstructor);
+                         const ViewOrigin& source, Reconstructor& reconstructor);
 
 /// Writes the tables' rows of a frame, and the model if it is due. `names` without a left name:
 /// images not from files.
