@@ -45,8 +45,9 @@ Json rigJson(const RectifiedRig& rig, bool one_camera) {
           {"baseline_mm", one_camera ? Json() : Json(rig.baseline_mm)}};
 }
 
-constexpr double kDoubtful = 0.5;   // confidence of a frame
-constexpr double kWarnShare = 0.1;  // smallest share of frames for a warning
+constexpr double kDoubtful = 0.5;    // confidence of a frame
+constexpr double kWarnShare = 0.1;   // smallest share of frames for a warning
+constexpr double kFewPoints = 0.01;  // points per pixel; a usual model has 0.1 and more
 
 }  // namespace
 
@@ -104,6 +105,7 @@ void RunRecord::add(const FrameRecord& record) {
   if (!record.fused()) return;
   ++frames_of_map_[record.map];
   points_ = record.points;
+  most_points_ = std::max(most_points_, points_);
   if (record.warp.nodes > 0) nodes_ = record.warp.nodes;
   doubtful_ += record.confidence() < kDoubtful;
   imprecise_ += record.depth.precise_share < kDoubtful;
@@ -125,6 +127,14 @@ std::vector<std::string> RunRecord::conclusions() const {
     all.push_back(std::to_string(left_out) + " of " + std::to_string(frames_) +
                   " frames were not fused (" + statusText() +
                   ") and did not update the model; the reasons are in frames.csv, column reason");
+  const Json& rig = json_.at("rectified_rig");
+  const double pixels = rig.at("width_px").get<double>() * rig.at("height_px").get<double>();
+  if (outcomes_.count(FusionOutcome::kFused) > 0 && most_points_ < kFewPoints * pixels)
+    all.push_back("the model has " + std::to_string(most_points_) +
+                  " points, fewer than 1 % of the " + fixed(pixels, 0) +
+                  " pixels of an image: it is no model of the tissue; possible causes: a "
+                  "calibration of another scope (above all the rotation and translation of the "
+                  "right camera), exchanged or mirrored views, images without texture");
   const auto warnOfImprecise = [&](int frames, const char* what) {
     if (frames <= kWarnShare * frames_) return;
     all.push_back(

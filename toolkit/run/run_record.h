@@ -53,6 +53,7 @@ class RunRecord {
   std::map<std::string, double> elapsed_ms_;  // per stage, over all frames
   std::vector<double> backprojection_mm_, prediction_mm_, frame_ms_, matches_;
   int frames_ = 0, points_ = 0, nodes_ = 0;
+  int most_points_ = 0;  // of any frame: the model in use at the end may be of another place
   int located_ = 0, scope_static_ = 0, doubtful_ = 0, disagreeing_ = 0, imprecise_ = 0,
       imprecise_tracks_ = 0, assumed_ = 0;
 };
