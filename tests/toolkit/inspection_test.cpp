@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 class Inspection : public InFolder {
  protected:
@@ -86,6 +87,24 @@ TEST_F(Inspection, ExchangedViewsAreNoticed) {
   fs::rename(sequence + "/right", sequence + "/left");
   fs::rename(sequence + "/tmp", sequence + "/right");
   EXPECT_THAT(describePath(sequence).text(), HasSubstr("not exchanged?"));
+}
+
+TEST_F(Inspection, AMissingNumberIsMentioned) {
+  const std::string sequence = makeSequence("s", 5);
+  EXPECT_THAT(describePath(sequence).text(), Not(HasSubstr("numbers in both views")));
+  for (const char* side : {"/left", "/right"}) fs::remove(sequence + side + "/000002.png");
+  EXPECT_THAT(describePath(sequence).text(),
+              HasSubstr("images of 1 numbers in both views, the first is 2"));
+}
+
+TEST_F(Inspection, AViewThatStandsStillIsNoticed) {
+  simulateClip(at("clip"), 3);
+  fs::copy_file(at("clip/right/000001.png"), at("clip/right/000002.png"),
+                fs::copy_options::overwrite_existing);
+  EXPECT_THAT(describePath(at("clip")).text(), HasSubstr("warning: frame 2: the right image"));
+  DescribeOptions all;
+  all.check_all = true;
+  EXPECT_EQ(written(describePath(at("clip"), all).json())["frames_with_bad_views"], 1);
 }
 
 TEST_F(Inspection, APictureTellsItsSizeAndBrightness) {
