@@ -1,4 +1,6 @@
 // tests/io/view_progress_test.cpp: frames of which one view stands still, and equal views.
+#include "io/sequences/view_progress.h"
+
 #include <gtest/gtest.h>
 
 #include "io/geometry/depth_files.h"
@@ -59,6 +61,33 @@ TEST_F(ViewProgress, AFrozenRightViewIsRefused) {
                               0),
             0U)
       << reasonOf(5);
+}
+
+/// The next image of a resting scene: one pixel differs.
+PairDigest restingAfter(PairDigest digest) {
+  ++digest.left.bytes;
+  return digest;
+}
+
+TEST(ViewProgressFault, ARestingSceneMayRepeatOneView) {
+  PairDigest first;
+  first.left.bytes = 1;
+  first.right.bytes = 2;
+  const PairDigest next = restingAfter(first);
+  EXPECT_EQ(viewProgressFault(EarlierPair{0, first}, next, {}), "");
+}
+
+TEST(ViewProgressFault, SlowMotionBesideAFrozenViewAddsUp) {
+  PairDigest now;
+  now.left.bytes = 1;
+  now.right.bytes = 2;
+  EarlierPair before{0, now};
+  for (int frame = 1; frame < 6; ++frame) {
+    now = restingAfter(now);
+    now.left.brightness[5] += 0.3F;
+    EXPECT_EQ(viewProgressFault(before, now, {}).empty(), frame < 4) << frame;
+    before = asEarlier(before, frame, now);
+  }
 }
 
 TEST_F(ViewProgress, AFrozenLeftViewIsRefused) {

@@ -98,7 +98,7 @@ class SequenceReader::Impl {
     FrameResult& result = loaded->result;
     const std::optional<EarlierPair> before = std::exchange(before_, std::nullopt);
     if (!loaded->digest) return;
-    before_ = EarlierPair{result.index, *loaded->digest};
+    before_ = asEarlier(before, result.index, *loaded->digest);
     result.error = viewProgressFault(before, *loaded->digest, result.names);
     if (result.ok()) return;
     result.frame = {};

@@ -1,6 +1,7 @@
 // src/io/sequences/view_progress.h: detection of a view that stands still, and of equal views.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,9 +11,13 @@
 
 namespace softscope {
 
-/// Of the decoded pixels: equal images have equal digests, others differ.
+/// Of the decoded pixels: equal images have equal bytes, others differ.
+struct ViewDigest {
+  std::uint64_t bytes = 0;
+  std::array<float, 48> brightness{};  // means of green, of 8 x 6 parts of the image
+};
 struct PairDigest {
-  std::uint64_t left = 0, right = 0;
+  ViewDigest left, right;
   bool left_is_flat = false;  // all pixels have one colour
 };
 PairDigest digestOf(const StereoPair& pair);
@@ -24,9 +29,15 @@ struct EarlierPair {
 };
 
 /// Reason why a pair cannot show one moment from two places, in one line: its views are equal, or
-/// one of them is that of the frame before while the other is not. Empty if there is none. Both
-/// views of the frame before are a repeated frame, and flat images have no views to compare.
+/// one of them is that of the frame before while the other one's brightness changes by 1 level
+/// somewhere; less may be the noise of a resting scene, of which a video repeats the other view.
+/// Empty if there is none. Both views of the frame before are a repeated frame, and flat images
+/// have no views to compare.
 std::string viewProgressFault(const std::optional<EarlierPair>& before, const PairDigest& now,
                               const FrameNames& names);
+
+/// What the next pair is compared with. While one view stands still, slow motion of the other adds
+/// up.
+EarlierPair asEarlier(const std::optional<EarlierPair>& before, int frame, const PairDigest& now);
 
 }  // namespace softscope
