@@ -94,16 +94,12 @@ class StereoPasses {
              level);
     perPixel("rims", FindRimsBody{smoothed, layout_.rims}, level);
     perPixel("rims in rows", LeastRimInRowBody{readOnly(layout_.rims), layout_.rim_rows}, level);
-    perPixel("erode",
-             ErodeBody{smoothed, readOnly(layout_.smoothed_sigma), readOnly(layout_.rim_rows),
-                       layout_.disparity, layout_.sigma, options.erode_edges_px, options.border_px,
-                       static_cast<float>(options.edge_step_px)},
-             level);
-    dropIslands(level, layout_.disparity);
     perPixel("depth",
-             DepthBody{readOnly(layout_.mask), layout_.inputs, layout_.disparity, layout_.sigma,
-                       layout_.depth, layout_.depth_sigma, rig.left.fx_px * rig.baseline_mm,
-                       rig.disparity_offset_px},
+             DepthBody{smoothed, readOnly(layout_.smoothed_sigma), readOnly(layout_.rim_rows),
+                       readOnly(layout_.mask), layout_.inputs, layout_.disparity, layout_.sigma,
+                       layout_.depth, layout_.depth_sigma, options.erode_edges_px,
+                       options.border_px, static_cast<float>(options.edge_step_px),
+                       rig.left.fx_px * rig.baseline_mm, rig.disparity_offset_px},
              level);
     executor_.mark("depth");
     const auto fx_px = static_cast<float>(rig.left.fx_px),
@@ -222,7 +218,14 @@ class StereoPasses {
         LeftRightBody{readOnly(level.whole[0]), readOnly(level.whole[1]), readOnly(level.dark_rows),
                       level.disparity[0], elas.left_right_px, options.dark_margin_px},
         level);
-    dropIslands(level, level.disparity[0]);
+    const Islands islands{level.disparity[0], level.islands_labels, level.islands_sizes,
+                          static_cast<float>(elas.speckle_step_px), elas.speckle_size_px};
+    const TileIslandsKernel tiles{islands};
+    executor_.launch("islands of tiles", tiles, tiles.blocks());
+    perElement("join tiles", JoinTilesBody{islands}, std::max(level.width, level.height),
+               std::max(level.width, level.height) / TileIslandsKernel::kHeight, 2);
+    perPixel("sum islands", SumIslandsBody{islands}, level);
+    perPixel("drop islands", DropIslandsBody{islands}, level);
     const auto gap_step = static_cast<float>(elas.gap_step_px);
     for (const bool along_rows : {true, false})
       perPixel("gaps",
@@ -231,18 +234,6 @@ class StereoPasses {
                             elas.gap_width_px, gap_step, along_rows},
                level);
     executor_.mark("filter");
-  }
-
-  void dropIslands(const StereoLevel& level, const View<float>& disparity) {
-    const ElasOptions& elas = level.options.elas;
-    const Islands islands{disparity, level.islands_labels, level.islands_sizes,
-                          static_cast<float>(elas.speckle_step_px), elas.speckle_size_px};
-    const TileIslandsKernel tiles{islands};
-    executor_.launch("islands of tiles", tiles, tiles.blocks());
-    perElement("join tiles", JoinTilesBody{islands}, std::max(level.width, level.height),
-               std::max(level.width, level.height) / TileIslandsKernel::kHeight, 2);
-    perPixel("sum islands", SumIslandsBody{islands}, level);
-    perPixel("drop islands", DropIslandsBody{islands}, level);
   }
 
   void refine(const StereoLevel& level) {

@@ -156,19 +156,41 @@ struct LeastRimInRowBody {
   }
 };
 
-/// Removes pixels near depth steps and the border, and doubts those at rims.
-struct ErodeBody {
+/// Inputs of a frame besides its images.
+struct FrameInputs {
+  double roll_rad;  // of the right image, whose effect on disparity is removed
+  int masked;       // 0: the mask is not in use
+};
+
+/// Removes pixels near depth steps, the border and the mask, doubts those at rims; back-projects
+/// the others.
+struct DepthBody {
   View<const float> disparity_in, sigma_in, rim_rows;
-  View<float> disparity, sigma;
+  View<const std::uint8_t> mask;
+  const FrameInputs* inputs;
+  View<float> disparity, sigma, depth, depth_sigma;
   int reach, border;
   float edge_step;
+  double scale, offset_px;
 
   SOFTSCOPE_HD void operator()(int u, int v, int) const {
     float d = disparity_in.at(u, v), s = sigma_in.at(u, v);
     if (isAtRim(d, leastRim(u, v))) s = sigmaAtRim(s);
     if (isDropped(u, v)) d = s = quietNan();
+    const double centre_v = (disparity.height - 1) / 2.0;
+    d -= static_cast<float>(inputs->roll_rad * (v - centre_v));
+    float z = quietNan(), z_sigma = quietNan();
+    const double shifted = d + offset_px;
+    if (shifted > 0) {
+      const DepthPixel pixel = depthOfDisparity(shifted, s, scale);
+      z = pixel.depth_mm;
+      z_sigma = pixel.sigma_mm;
+    }
+    if (inputs->masked != 0 && mask.at(u, v) != 0) d = s = z = z_sigma = quietNan();
     disparity.at(u, v) = d;
     sigma.at(u, v) = s;
+    depth.at(u, v) = z;
+    depth_sigma.at(u, v) = z_sigma;
   }
 
  private:
@@ -194,38 +216,6 @@ struct ErodeBody {
         x + 1 < disparity_in.width && absoluteOf(disparity_in.at(x + 1, y) - here) > edge_step;
     return beside || (y + 1 < disparity_in.height &&
                       absoluteOf(disparity_in.at(x, y + 1) - here) > edge_step);
-  }
-};
-
-/// Inputs of a frame besides its images.
-struct FrameInputs {
-  double roll_rad;  // of the right image, whose effect on disparity is removed
-  int masked;       // 0: the mask is not in use
-};
-
-/// Removes pixels of the mask, and the effect of roll; back-projects the others.
-struct DepthBody {
-  View<const std::uint8_t> mask;
-  const FrameInputs* inputs;
-  View<float> disparity, sigma, depth, depth_sigma;
-  double scale, offset_px;
-
-  SOFTSCOPE_HD void operator()(int u, int v, int) const {
-    float d = disparity.at(u, v), s = isNumber(d) ? sigma.at(u, v) : quietNan();
-    const double centre_v = (disparity.height - 1) / 2.0;
-    d -= static_cast<float>(inputs->roll_rad * (v - centre_v));
-    float z = quietNan(), z_sigma = quietNan();
-    const double shifted = d + offset_px;
-    if (shifted > 0) {
-      const DepthPixel pixel = depthOfDisparity(shifted, s, scale);
-      z = pixel.depth_mm;
-      z_sigma = pixel.sigma_mm;
-    }
-    if (inputs->masked != 0 && mask.at(u, v) != 0) d = s = z = z_sigma = quietNan();
-    disparity.at(u, v) = d;
-    sigma.at(u, v) = s;
-    depth.at(u, v) = z;
-    depth_sigma.at(u, v) = z_sigma;
   }
 };
 

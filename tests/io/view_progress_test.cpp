@@ -72,7 +72,7 @@ PairDigest restingAfter(PairDigest digest) {
 TEST(ViewProgressFault, ARestingSceneMayRepeatOneView) {
   PairDigest first;
   first.left.bytes = 1;
-  first.right.bytes = 2;
+  first.right.bytes = 100;
   const PairDigest next = restingAfter(first);
   EXPECT_EQ(viewProgressFault(EarlierPair{0, first}, next, {}), "");
 }
@@ -80,7 +80,7 @@ TEST(ViewProgressFault, ARestingSceneMayRepeatOneView) {
 TEST(ViewProgressFault, SlowMotionBesideAFrozenViewAddsUp) {
   PairDigest now;
   now.left.bytes = 1;
-  now.right.bytes = 2;
+  now.right.bytes = 100;
   EarlierPair before{0, now};
   for (int frame = 1; frame < 6; ++frame) {
     now = restingAfter(now);

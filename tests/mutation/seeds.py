@@ -305,11 +305,11 @@ def make_video(root, softscope):
         calibration = calibration.replace(small, large)
     (root / "video/calibration.yaml").write_text(calibration)
     try:
-        softscope("view", "run", "--movie", "video/left.mp4", "--size", "320x240", "--seconds", "0.2",
-                  "--quiet")
+        for view, turn in ("left", "30"), ("right", "60"):
+            softscope("view", "run", "--movie", f"video/{view}.mp4", "--size", "320x240", "--seconds",
+                      "0.2", "--turn", turn, "--quiet")
     except RuntimeError:
         return False
-    shutil.copy(root / "video/left.mp4", root / "video/right.mp4")
     return True
 
 

@@ -40,19 +40,6 @@ TEST(RemoveSpeckles, RemovesIslandsAndKeepsCoasts) {
   EXPECT_TRUE(std::isnan(d.at(15, 15)));
 }
 
-TEST(RemoveSpeckles, RemovesTheirErrorsToo) {
-  DisparityMap map{Raster<float>(20, 20, 10), Raster<float>(20, 20, 0.1F)};
-  for (int v = 5; v < 8; ++v)
-    for (int u = 5; u < 8; ++u) map.disparity_px.at(u, v) = 30;
-  removeSpeckles(map, 10, 1.0);
-  for (int v = 0; v < 20; ++v)
-    for (int u = 0; u < 20; ++u) {
-      const bool is_island = u >= 5 && u < 8 && v >= 5 && v < 8;
-      ASSERT_EQ(std::isnan(map.disparity_px.at(u, v)), is_island) << u << ", " << v;
-      ASSERT_EQ(std::isnan(map.sigma_px.at(u, v)), is_island) << u << ", " << v;
-    }
-}
-
 TEST(FillGaps, InterpolatesNarrowGapsOnly) {
   Raster<float> d(12, 1, kNaN);
   d.at(0, 0) = 10;

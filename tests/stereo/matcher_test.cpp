@@ -7,7 +7,6 @@
 
 #include "core/parallel.h"
 #include "stereo/matching/stereo_matcher.h"
-#include "stereo/refinement/disparity_filter.h"
 #include "support/scene.h"
 
 namespace softscope {
@@ -116,25 +115,6 @@ TEST(ElasMatcher, FindsTheLargerDisparitiesOfLargerImages) {
       scoreOf(makeStereoMatcher({})->match(scene.left, scene.right), scene.disparity_px);
   EXPECT_LT(score.median_px, 0.1);
   EXPECT_GT(score.coverage, 0.9);
-}
-
-// Coarser sizes and the erosion beside steps leave new ones.
-TEST(ElasMatcher, LeavesNoIslands) {
-  const auto scene = test::makeScene(
-      test::endoscope(), test::nearest(test::sphere({3, 0, 55}, 12), test::plane(75, 0.2)), 16.0);
-  const auto stereo = makeStereoMatcher(StereoOptions());
-  const DisparityMap found = stereo->match(scene.left, scene.right);
-  DisparityMap again = found;
-  removeSpeckles(again, ElasOptions().speckle_size_px, ElasOptions::speckle_step_px);
-  int measured = 0, on_islands = 0;
-  for (std::size_t i = 0; i < found.disparity_px.size(); ++i) {
-    const bool is_measured = !std::isnan(found.disparity_px.values[i]);
-    ASSERT_EQ(is_measured, !std::isnan(found.sigma_px.values[i])) << i;
-    measured += is_measured;
-    on_islands += is_measured && std::isnan(again.disparity_px.values[i]);
-  }
-  EXPECT_GT(measured, 1000);
-  EXPECT_EQ(on_islands, 0);
 }
 
 TEST(ElasMatcher, MatchesUnderAnExposureDifference) {

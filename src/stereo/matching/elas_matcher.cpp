@@ -109,7 +109,6 @@ DisparityMap ElasMatcher::match(const GrayImage& left_image, const GrayImage& ri
   doubtRims(&map);
   doubtFringes(views.left, &map);
   erodeEdges(map, options_.erode_edges_px, options_.edge_step_px, options_.border_px);
-  removeSpeckles(map, options_.elas.speckle_size_px, ElasOptions::speckle_step_px);
   clock.lap("erode");
   times_ = clock.laps();
   return map;

@@ -188,8 +188,10 @@ DisparityMap OnnxMatcher::matchColour(const StereoPair& pair, const ViewMasks& i
   predictSigma(left_right, scale, &map);
   clock.lap("agreement");
   removeDark(map.disparity_px, left_gray, options_.darkest_gray, options_.dark_margin_px);
-  removeSpeckles(map, options_.elas.speckle_size_px, ElasOptions::speckle_step_px);
+  removeSpeckles(map.disparity_px, options_.elas.speckle_size_px, ElasOptions::speckle_step_px);
   erodeEdges(map, options_.erode_edges_px, options_.edge_step_px, options_.border_px);
+  for (std::size_t i = 0; i < map.sigma_px.size(); ++i)
+    if (std::isnan(map.disparity_px.values[i])) map.sigma_px.values[i] = kNotMeasured<float>;
   clock.lap("filter");
   times_ = clock.laps();
   return map;

@@ -161,12 +161,6 @@ void removeSpeckles(Raster<float>& disparity_px, int size_px, double step_px) {
                   kNotMeasured<float>);
 }
 
-void removeSpeckles(DisparityMap& map, int size_px, double step_px) {
-  removeSpeckles(map.disparity_px, size_px, step_px);
-  for (std::size_t i = 0; i < map.sigma_px.size(); ++i)
-    if (std::isnan(map.disparity_px.values[i])) map.sigma_px.values[i] = kNotMeasured<float>;
-}
-
 void fillGaps(Raster<float>& disparity_px, int width_px, double step_px) {
   const int width = disparity_px.width_px, height = disparity_px.height_px;
   const float step = static_cast<float>(step_px);

@@ -23,8 +23,6 @@ void removeDark(Raster<float>& disparity_px, const GrayImage& left, int darkest_
 
 /// Removes islands of fewer than `size_px` pixels whose neighbours differ by at most `step_px`.
 void removeSpeckles(Raster<float>& disparity_px, int size_px, double step_px);
-/// Also their errors.
-void removeSpeckles(DisparityMap& map, int size_px, double step_px);
 
 /// Fills gaps of up to `width_px` pixels in rows, then in
 /// columns, linearly, if both sides differ by at most `step_px`.
