@@ -8,11 +8,14 @@ namespace {
 
 constexpr double kLittleDepth = 0.05;  // coverage below which the images are examined
 
-/// Adds the faults of the views to the reason of a frame with little depth.
-void explainNoDepth(const FrameResult& current, const ViewOrigin& source, FrameRecord* frame) {
+/// Adds the faults of the views to the reason of a frame with little depth. Views that gave a model
+/// have no fault of a whole clip.
+void explainNoDepth(const FrameResult& current, const ViewOrigin& source, bool has_model,
+                    FrameRecord* frame) {
   if (frame->status != FrameStatus::kSkippedDepth || frame->depth.coverage() >= kLittleDepth)
     return;
-  const std::string faults = viewFaults(current.frame, current.names, source);
+  const std::string faults =
+      has_model ? frameFaults(current.frame) : viewFaults(current.frame, current.names, source);
   if (!faults.empty()) frame->reason += ": " + faults;
 }
 
@@ -30,7 +33,7 @@ FrameRecord processFrame(const FrameResult& current, const FrameWindow& frames,
                          const ViewOrigin& source, Reconstructor& reconstructor) {
   if (current.ok()) {
     FrameRecord frame = reconstructor.process(current.frame, frames.upcoming());
-    explainNoDepth(current, source, &frame);
+    explainNoDepth(current, source, !reconstructor.backend().empty(), &frame);
     return frame;
   }
   return reconstructor.skip(current.index, current.error, current.time_s,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <vector>
 
 #include "eval/statistics/statistics.h"
 #include "io/files/folder.h"
@@ -83,6 +84,17 @@ std::string orientationFault(const FrameNames& names, const SequencePaths& paths
              ", which is ignored: store the pixels as the calibration has them");
 }
 
+bool hasTwoViews(const Frame& frame) {
+  return !frame.pair.left.empty() && !frame.pair.right.empty() && frame.depth_mm.empty();
+}
+
+std::string joined(const std::vector<std::string>& faults) {
+  std::string all;
+  for (const std::string& fault : faults)
+    if (!fault.empty()) all += (all.empty() ? "" : "; ") + fault;
+  return all;
+}
+
 }  // namespace
 
 std::string maskFault(const Mask& mask) {
@@ -95,14 +107,15 @@ std::string maskFault(const Mask& mask) {
          " % of the image: non-zero pixels are ignored; is it inverted?";
 }
 
+std::string frameFaults(const Frame& frame) {
+  if (!hasTwoViews(frame)) return {};
+  return joined({maskFault(frame.mask), brightnessFault(frame.pair)});
+}
+
 std::string viewFaults(const Frame& frame, const FrameNames& names, const ViewOrigin& source) {
-  if (frame.pair.left.empty() || frame.pair.right.empty() || !frame.depth_mm.empty()) return {};
-  std::string all;
-  for (const std::string& fault :
-       {maskFault(frame.mask), brightnessFault(frame.pair), orderFault(frame.pair, source),
-        orientationFault(names, source.paths)})
-    if (!fault.empty()) all += (all.empty() ? "" : "; ") + fault;
-  return all;
+  if (!hasTwoViews(frame)) return {};
+  return joined(
+      {frameFaults(frame), orderFault(frame.pair, source), orientationFault(names, source.paths)});
 }
 
 }  // namespace softscope

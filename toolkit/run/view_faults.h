@@ -22,6 +22,9 @@ struct ViewOrigin {
 /// and row alignment of two pairs: for frames without depth only.
 std::string viewFaults(const Frame& frame, const FrameNames& names, const ViewOrigin& source);
 
+/// Of these, those that a single frame may have: mask and brightness.
+std::string frameFaults(const Frame& frame);
+
 /// The cause in a mask that hides nearly everything, else empty.
 std::string maskFault(const Mask& mask);
 
