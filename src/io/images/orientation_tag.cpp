@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "io/files/byte_cursor.h"
 #include "io/files/file_bytes.h"
 
 namespace softscope {
@@ -11,39 +12,42 @@ namespace {
 
 constexpr int kAsStored = 1, kLastOrientation = 8;
 constexpr std::string_view kExifStart{"Exif\0\0", 6};
-constexpr std::uint32_t kOrientationField = 0x112;
-
-/// Bytes in one byte order; 0 beyond the end.
-class TagBytes {
- public:
-  TagBytes(std::string_view bytes, bool little_endian) : bytes_(bytes), little_(little_endian) {}
-
-  std::uint32_t read(std::size_t begin, std::size_t count) const {
-    if (begin > bytes_.size() || count > bytes_.size() - begin) return 0;
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t k = little_ ? count - 1 - i : i;
-      value = value << 8 | static_cast<unsigned char>(bytes_[begin + k]);
-    }
-    return value;
-  }
-
- private:
-  std::string_view bytes_;
-  bool little_;
-};
+constexpr std::uint16_t kFirstMarker = 0xffd8, kOrientationField = 0x112;
+constexpr std::uint8_t kExifSegment = 0xe1, kFirstScan = 0xda;
+constexpr std::size_t kFieldBytes = 12, kValueAt = 8;
 
 /// `tiff`: content of the Exif segment, whose first directory has the tag.
 int orientationIn(std::string_view tiff) {
-  const TagBytes bytes(tiff, tiff.substr(0, 2) == "II");
-  const std::size_t directory = bytes.read(4, 4);
-  const std::uint32_t fields = bytes.read(directory, 2);
-  for (std::uint32_t i = 0; i < fields; ++i) {
-    const std::size_t field = directory + 2 + std::size_t{12} * i;
-    if (field >= tiff.size()) break;
-    if (bytes.read(field, 2) != kOrientationField) continue;
-    const auto value = static_cast<int>(bytes.read(field + 8, 2));
+  ByteCursor cursor(tiff, "", /*big_endian=*/tiff.substr(0, 2) != "II");
+  cursor.moveTo(4);
+  cursor.moveTo(cursor.u32());
+  for (int fields = cursor.u16(); fields > 0; --fields) {
+    const std::size_t field = cursor.position();
+    if (cursor.u16() != kOrientationField) {
+      cursor.moveTo(field + kFieldBytes);
+      continue;
+    }
+    cursor.moveTo(field + kValueAt);
+    const int value = cursor.u16();
     return value >= kAsStored && value <= kLastOrientation ? value : kAsStored;
+  }
+  return kAsStored;
+}
+
+/// Throws InputError where the bytes end early.
+int orientationOfJpeg(std::string_view bytes) {
+  ByteCursor cursor(bytes, "", /*big_endian=*/true);
+  if (cursor.u16() != kFirstMarker) return kAsStored;
+  while (cursor.u8() == 0xff) {
+    const std::uint8_t marker = cursor.u8();
+    if (marker == kFirstScan) break;
+    const std::size_t begin = cursor.position();
+    const std::size_t length = cursor.u16();
+    if (length < 2) break;
+    const std::string_view content = bytes.substr(cursor.position(), length - 2);
+    if (marker == kExifSegment && content.substr(0, kExifStart.size()) == kExifStart)
+      return orientationIn(content.substr(kExifStart.size()));
+    cursor.moveTo(begin + length);
   }
   return kAsStored;
 }
@@ -51,18 +55,11 @@ int orientationIn(std::string_view tiff) {
 }  // namespace
 
 int parseOrientationTag(std::string_view bytes) {
-  const TagBytes marks(bytes, false);
-  if (marks.read(0, 2) != 0xffd8) return kAsStored;
-  for (std::size_t at = 2; marks.read(at, 1) == 0xff && marks.read(at + 1, 1) != 0xda;) {
-    const std::size_t length = marks.read(at + 2, 2);
-    if (length < 2) break;
-    const std::string_view content =
-        bytes.substr(at + 4 < bytes.size() ? at + 4 : bytes.size(), length - 2);
-    if (marks.read(at + 1, 1) == 0xe1 && content.substr(0, kExifStart.size()) == kExifStart)
-      return orientationIn(content.substr(kExifStart.size()));
-    at += 2 + length;
+  try {
+    return orientationOfJpeg(bytes);
+  } catch (const InputError&) {
+    return kAsStored;
   }
-  return kAsStored;
 }
 
 int orientationTag(const std::filesystem::path& file) {

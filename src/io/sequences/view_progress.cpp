@@ -31,16 +31,15 @@ std::uint64_t digestOfBytes(const ColourImage& image) {
   return mixed(mixed(lanes[0], lanes[1]), mixed(lanes[2], lanes[3]));
 }
 
-constexpr int kPartsAcross = 8, kPartsDown = 6;
 constexpr int kRowStep = 4;  // every fourth row tells enough
 constexpr float kMovesGray = 1;
 
-std::array<float, kPartsAcross * kPartsDown> partsOf(const ColourImage& image) {
-  std::array<float, kPartsAcross * kPartsDown> sums{}, counts{};
+ViewDigest::Parts partsOf(const ColourImage& image) {
+  constexpr int kAcross = ViewDigest::kPartsAcross, kDown = ViewDigest::kPartsDown;
+  ViewDigest::Parts sums{}, counts{};
   for (int v = 0; v < image.height_px; v += kRowStep)
     for (int u = 0; u < image.width_px; ++u) {
-      const int part =
-          v * kPartsDown / image.height_px * kPartsAcross + u * kPartsAcross / image.width_px;
+      const int part = v * kDown / image.height_px * kAcross + u * kAcross / image.width_px;
       sums[static_cast<std::size_t>(part)] += image.at(u, v).green;
       counts[static_cast<std::size_t>(part)] += 1;
     }

@@ -13,8 +13,11 @@ namespace softscope {
 
 /// Of the decoded pixels: equal images have equal bytes, others differ.
 struct ViewDigest {
+  static constexpr int kPartsAcross = 8, kPartsDown = 6;
+  using Parts = std::array<float, kPartsAcross * kPartsDown>;
+
   std::uint64_t bytes = 0;
-  std::array<float, 48> brightness{};  // means of green, of 8 x 6 parts of the image
+  Parts brightness{};  // means of green
 };
 struct PairDigest {
   ViewDigest left, right;
