@@ -98,19 +98,20 @@ TEST(RowDoubts, AreNoneForTheCamerasOfTheCalibration) {
   EXPECT_GT(doubt.matches, 1000);
   EXPECT_GT(doubt.agreeing_share, 0.8);
   EXPECT_FALSE(doubt.is_strong || doubt.is_scaled);
-  EXPECT_EQ(doubt.roll_rad, 0);
+  EXPECT_FALSE(doubt.is_rolled);
   EXPECT_LT(std::abs(doubt.fan_px), 0.1);
 }
 
 TEST(RowDoubts, NameRollScaleAndYaw) {
   const RowDoubt rolled = clipOf(rolledBy(tissuePair().right, -5 * kRadPerDeg)).doubtAt(0);
   EXPECT_FALSE(rolled.is_strong);
-  EXPECT_NEAR(rolled.roll_rad, std::tan(-5 * kRadPerDeg), 0.002);
+  EXPECT_TRUE(rolled.is_rolled);
+  EXPECT_NEAR(rolled.rollRad(), std::tan(-5 * kRadPerDeg), 0.002);
 
   const RowDoubt scaled = clipOf(scaledBy(tissuePair().right, 1.03)).doubtAt(0);
   EXPECT_FALSE(scaled.is_strong);
   EXPECT_TRUE(scaled.is_scaled);
-  EXPECT_NEAR(scaled.scale, 0.03, 0.004);
+  EXPECT_NEAR(scaled.scale(), 0.03, 0.004);
 
   constexpr double kFanPx = 3;
   const double half_px = tissuePair().left.width_px / 2.0;

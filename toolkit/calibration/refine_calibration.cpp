@@ -16,11 +16,11 @@
 #include "stereo/rectification/rectifier.h"
 #include "stereo/rectification/rolled_rows.h"
 #include "stereo/rectification/row_meter.h"
+#include "stereo/rectification/view_synchrony.h"
 
 namespace softscope {
 namespace {
 
-constexpr double kDoubtfulYawMrad = 10;
 constexpr int kUnknowns = 4;      // pitch, roll, yaw, scale
 constexpr int kRobustRounds = 6;  // iterations of reweighting
 constexpr double kTukeyPx = 1.5;  // rejection limit for a match
@@ -208,6 +208,11 @@ double diagonalView(const PinholeCamera& camera) {
   return 2 * std::atan(radius / 2) * 180 / 3.14159265358979323846;
 }
 
+/// Surely, by its interval.
+bool isBeyond(const RefinedValue& value, double limit) {
+  return value.interval.low > limit || value.interval.high < -limit;
+}
+
 void addDoubts(RefinedCalibration* refined) {
   const double view = refined->diagonal_view_deg, depth = refined->median_depth_mm;
   if (view < kNarrowestDeg || view > kWidestDeg)
@@ -218,14 +223,12 @@ void addDoubts(RefinedCalibration* refined) {
     refined->doubts.push_back(say("focal length and baseline put the tissue at ", depth,
                                   " mm, but 15 to 250 mm are expected. Is one of them of another "
                                   "scope or unit?"));
-  const Interval& scale = refined->scale_percent.interval;
-  if (scale.low > kDoubtfulScale || scale.high < -kDoubtfulScale)
+  if (isBeyond(refined->scale_percent, kDoubtfulScale))
     refined->doubts.push_back(say("the right view's rows are scaled by ",
                                   refined->scale_percent.value,
                                   " % against the left ones: the focal lengths do not fit each "
                                   "other. Calibrate with a board."));
-  const Interval& yaw = refined->yaw_mrad.interval;
-  if (yaw.low > kDoubtfulYawMrad || yaw.high < -kDoubtfulYawMrad)
+  if (isBeyond(refined->yaw_mrad, kMilli * RowDoubt::kLargestYawRad))
     refined->doubts.push_back(say("the rows fan out as if the right camera were turned by ",
                                   refined->yaw_mrad.value,
                                   " mrad sideways against the calibration, which rows alone can't "

@@ -92,17 +92,16 @@ std::string withSign(double value) {
 }
 
 std::string rollWarning(const RowDoubt& doubt) {
-  return say("the right view is rolled by ", withSign(kDegPerRad * doubt.roll_rad),
+  return say("the right view is rolled by ", withSign(kDegPerRad * doubt.rollRad()),
              " deg against the calibration. Its rows are moved, but depth is better with a "
              "calibration of the cameras as they are: `softscope calibrate --refine`");
 }
 
 /// Of a camera turned by a small angle, rows differ by the angle times x y / f.
 std::string yawWarning(const RowDoubt& doubt, const PinholeCamera& camera) {
-  constexpr double kLargestRad = 0.01;
   const double half_width_px = camera.width_px / 2.0;
   const double yaw_rad = doubt.fan_px * camera.fx_px / (half_width_px * half_width_px);
-  if (std::abs(yaw_rad) < kLargestRad) return "";
+  if (std::abs(yaw_rad) < RowDoubt::kLargestYawRad) return "";
   return say("the rows of the right view fan out as if its camera were turned by ",
              withSign(kDegPerRad * yaw_rad),
              " deg sideways against the calibration: depth is wrong then. Are rotation, lens and "
@@ -110,21 +109,20 @@ std::string yawWarning(const RowDoubt& doubt, const PinholeCamera& camera) {
 }
 
 std::string scaleWarning(const RowDoubt& doubt) {
-  return say("the right view is scaled by ", withSign(100 * doubt.scale),
+  return say("the right view is scaled by ", withSign(100 * doubt.scale()),
              " % against the left one: the focal lengths of the calibration do not fit, and depth "
              "is wrong towards the sides of the image. Was a camera zoomed or focused since? "
              "Calibrate again");
 }
 
 ViewRelation relationAt(const ViewMeter& views, int offset) {
-  const SynchronyMeter& meter = views.meter;
-  ViewRelation relation{meter.rowsAt(offset), {}, views.bad_views};
-  const RowDoubt doubt = meter.doubtAt(offset);
+  const RowDoubt doubt = views.meter.doubtAt(offset);
+  ViewRelation relation{doubt.rows, {}, views.bad_views};
   if (doubt.is_strong) {
     relation.warnings.push_back(rowsWarning(doubt));
     return relation;
   }
-  if (doubt.roll_rad != 0)
+  if (doubt.is_rolled)
     relation.warnings.push_back(rollWarning(doubt));
   else if (doubt.is_scaled)
     relation.warnings.push_back(scaleWarning(doubt));

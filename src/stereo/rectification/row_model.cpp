@@ -70,6 +70,10 @@ std::vector<double> residualsOf(const std::vector<RowMatch>& matches,
   return residuals;
 }
 
+void subtract(const RowAlignment& plane, std::vector<RowMatch>* matches) {
+  for (RowMatch& m : *matches) m.difference_px -= plane.at(m.u_right_px, m.v_right_px);
+}
+
 /// Standard deviation of most of them about zero: by their median size.
 double scatterOf(std::vector<double> values) {
   for (double& x : values) x = std::abs(x);
@@ -133,7 +137,7 @@ RowAlignment fitRowModel(std::vector<RowMatch> matches, RowAlignment alignment,
                          const RowPlane& expected) {
   if (matches.size() < RowAlignment::kFewestMatches) return alignment;
   const RowAlignment plane = withModel(expected, alignment);
-  for (RowMatch& m : matches) m.difference_px -= plane.at(m.u_right_px, m.v_right_px);
+  subtract(plane, &matches);
   const double common_px = commonDifference(matches);
   alignment.model[0] = common_px;
   for (int round = 0; round < kRounds; ++round)
@@ -159,9 +163,9 @@ RowAlignment fitRowModel(std::vector<RowMatch> matches, RowAlignment alignment,
 
 RowPlane fitRowPlane(std::vector<RowMatch> matches, RowAlignment scale, const RowPlane& expected) {
   const RowAlignment plane = withModel(expected, scale);
+  subtract(plane, &matches);
   std::vector<double> differences;
-  for (RowMatch& m : matches)
-    differences.push_back(m.difference_px -= plane.at(m.u_right_px, m.v_right_px));
+  for (const RowMatch& m : matches) differences.push_back(m.difference_px);
   scale.model = {medianOf(std::move(differences))};
   for (int round = 0; round < kRounds; ++round) {
     const RowEquations equations = equationsOf(matches, weightsOf(matches, round, scale), scale);

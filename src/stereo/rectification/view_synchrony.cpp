@@ -73,18 +73,17 @@ RowPlane SynchronyMeter::rowsAt(int offset) const {
 
 RowDoubt SynchronyMeter::doubtAt(int offset) const {
   RowDoubt doubt;
+  doubt.rows = rowsAt(offset);
   doubt.matches = static_cast<int>(allAt(offset).size());
   if (doubt.matches < kFewestJudged) return doubt;
-  const RowAlignment rows = modelAt(offset);
-  doubt.agreeing_share = rows.agreeing_share;
-  doubt.fan_px = rows.model[4];
-  doubt.scatter_px = scatterAt(offset);
-  const bool unsteady = std::isfinite(doubt.scatter_px) && doubt.scatter_px > kUnsteadyPx;
-  const RowPlane plane = rowsAt(offset);
-  doubt.roll_rad = rolled_.isKnown() ? plane.per_column : 0;
-  doubt.scale = plane.per_row;
-  doubt.is_scaled = std::abs(doubt.scale) > kScaled;
-  doubt.is_strong = doubt.agreeing_share < RowAlignment::kByChance || unsteady;
+  const RowAlignment model = modelAt(offset);
+  const double scatter_px = scatterAt(offset);  // infinite where no frame has a model
+  doubt.agreeing_share = model.agreeing_share;
+  doubt.fan_px = model.model[4];
+  doubt.is_rolled = rolled_.isKnown() && doubt.rollRad() != 0;
+  doubt.is_scaled = std::abs(doubt.scale()) > kScaled;
+  doubt.is_strong = doubt.agreeing_share < RowAlignment::kByChance ||
+                    (std::isfinite(scatter_px) && scatter_px > kUnsteadyPx);
   return doubt;
 }
 

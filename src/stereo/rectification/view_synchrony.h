@@ -18,14 +18,18 @@ struct ViewSynchrony {
 
 /// How far the rows of a clip can be believed.
 struct RowDoubt {
+  RowPlane rows;  // SynchronyMeter::rowsAt()
   int matches = 0;
   double agreeing_share = 0;  // of the matches, with the rows of all frames
-  double scatter_px = 0;      // of the rows of single frames; infinite if they are unknown
-  double roll_rad = 0;        // of a camera, if it is large
-  double scale = 0;           // of the rows of the right view: larger by this share
   double fan_px = 0;          // of the row difference's model, by x y in half widths: a yaw's
   bool is_strong = false;     // no more agree than wrong matches do, or frames differ
+  bool is_rolled = false;     // a camera is, by rollRad()
   bool is_scaled = false;     // the focal lengths of the calibration do not fit
+
+  static constexpr double kLargestYawRad = 0.01;  // correct calibrations: half of it
+
+  double rollRad() const { return rows.per_column; }
+  double scale() const { return rows.per_row; }  // the right view is larger by this share
 };
 
 /// Two videos may have been started or cut a few images apart; then tissue that moves sideways has
