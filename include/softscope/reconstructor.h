@@ -46,9 +46,9 @@ class Reconstructor {
   Reconstructor& operator=(Reconstructor&&) noexcept;
 
   /// Before the first frame: writes a run folder during processing, with
-  /// the model of every `save_every`-th frame (0: last only); all files are
-  /// updated every 100 frames. Throws
-  /// OptionError if the folder contains a run and `overwrite` is false.
+  /// the model of every `save_every`-th frame (0: last only); all files are updated every 100
+  /// frames. They are written on a thread of their own: finish() waits. Throws OptionError if the
+  /// folder contains a run and `overwrite` is false.
   void recordTo(const std::string& folder, int save_every = 10, bool overwrite = false);
 
   /// Next frame of `sequence`, from its first on in the time of `softscope reconstruct`: the depth

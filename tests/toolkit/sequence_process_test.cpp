@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "io/files/folder.h"
 #include "softscope/reconstructor.h"
@@ -22,6 +24,13 @@ api::Options smallDisparities() {
   api::Options options;
   options.set("stereo.disparity_max_px", "63");
   return options;
+}
+
+/// Waits up to ten seconds.
+bool appears(const fs::path& file) {
+  for (int i = 0; i < 1000 && !fs::exists(file); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return fs::exists(file);
 }
 
 class ProcessOfASequence : public InFolder {
@@ -102,6 +111,7 @@ TEST_F(ProcessOfASequence, UpdatesItsFilesEveryHundredFrames) {
   for (int i = 0; i < 99; ++i) reconstructor.process(sequence);
   EXPECT_FALSE(fs::exists(at("run/frames.csv")));
   reconstructor.process(sequence);
+  ASSERT_TRUE(appears(at("run/checkpoint.bin")));  // written last
   const std::string table = textOf(at("run/frames.csv"));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 101);
   EXPECT_TRUE(fs::exists(at("run/model.ply")));

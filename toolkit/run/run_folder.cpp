@@ -33,7 +33,6 @@ constexpr const char* kCheckpoint = "checkpoint.bin";
 constexpr const char* kModels = "models";
 constexpr const char* kNodes = "nodes";
 constexpr std::uintmax_t kCheckpointLimitBytes = std::uintmax_t{8} << 30;
-
 constexpr const char* kImages = "images.csv";
 constexpr const char* kKitti = "trajectory_kitti.txt";
 
@@ -48,7 +47,6 @@ bool isSavedModel(const fs::path& file) {
          (end == ".ply" || end == ".vtp" || end == ".csv");
 }
 
-/// The model of a map that is not in use.
 std::string otherMapName(int map) { return say("model_map", map, ".ply"); }
 
 bool isOtherMap(const fs::path& file) {
@@ -60,15 +58,12 @@ bool isOtherMap(const fs::path& file) {
 }
 
 /// Of all maps but `kept`.
-void removeOtherMaps(const fs::path& folder, const std::vector<Submap>& kept) {
+void removeOtherMaps(const fs::path& folder, const std::vector<std::string>& kept) {
   std::vector<fs::path> earlier;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const auto isKept = [&](const Submap& map) {
-      return entry.path().filename() == otherMapName(map.scope.map);
-    };
-    if (isOtherMap(entry.path()) && std::none_of(kept.begin(), kept.end(), isKept))
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (isOtherMap(entry.path()) &&
+        std::find(kept.begin(), kept.end(), entry.path().filename()) == kept.end())
       earlier.push_back(entry.path());
-  }
   for (const fs::path& path : earlier) fs::remove(path);
 }
 
@@ -76,6 +71,14 @@ bool holdsRun(const fs::path& folder) {
   for (const char* name : kRunFiles)
     if (fs::exists(folder / name)) return true;
   return fs::exists(folder / kModels);
+}
+
+void makeFolder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure)
+    throw InputError("`out=` " + shown(folder) + ": can't be made: " + failure.message() +
+                     ". Choose a folder that you may write to");
 }
 
 [[noreturn]] void refuseBusy(const fs::path& folder) {
@@ -242,11 +245,7 @@ void RunFolder::takeOver(int next_frame) {
 void RunFolder::begin() {
   if (begun_) return;
   begun_ = true;
-  std::error_code failure;
-  fs::create_directories(options_.folder, failure);
-  if (failure)
-    throw InputError("`out=` " + shown(options_.folder) + ": can't be made: " + failure.message() +
-                     ". Choose a folder that you may write to");
+  makeFolder(options_.folder);
   hold();
   for (const char* name : kRunFiles) fs::remove(file(name));
   removeOtherMaps(options_.folder, {});
@@ -263,16 +262,24 @@ void RunFolder::add(const FrameRecord& record, const FrameNames& names) {
   last_frame_ = record.frame;
   ++unflushed_frames_;
   if (!names.left.empty()) images_csv_ += imagesCsvLine(record.frame, names);
-  frames_csv_ += framesCsvLine(record);
-  tracks_csv_ += tracksCsvLines(record);
+  due_.push_back(record);
   const double time_s = std::isfinite(record.time_s) ? record.time_s : record.frame;
   if (record.join) join(*record.join);
   trajectory_.push_back({time_s, record.world_from_left});
   placed_.push_back({record.frame, record.map});
 }
 
+void RunFolder::addRows(const std::vector<FrameRecord>& records) {
+  for (const FrameRecord& record : records) {
+    frames_csv_ += framesCsvLine(record);
+    tracks_csv_ += tracksCsvLines(record);
+  }
+}
+
 /// All that was written of one map moves into the world of another.
 void RunFolder::join(const MapJoin& join) {
+  writer_.finish();
+  addRows(std::exchange(due_, {}));
   frames_csv_ = moveRows(frames_csv_, join);
   // As a resumed run reads them.
   if (!trajectory_.empty())
@@ -318,42 +325,61 @@ void RunFolder::writeModel(const SavedModel& saved, const Eigen::Isometry3d& wor
 
 void RunFolder::saveModel(int frame, double time_s, const ModelState& state) {
   begin();
-  fs::create_directories(file(kModels));
-  fs::create_directories(file(kNodes));
-  if (!std::isfinite(time_s)) time_s = frame;
-  writeModel({frame, time_s}, trajectory_.back().world_from_left, cloudOf(state),
-             state.graph.positions_mm);
-  if (saved_.empty() || saved_.back().frame != frame) saved_.push_back({frame, time_s});
+  const SavedModel saved{frame, std::isfinite(time_s) ? time_s : frame};
+  writer_.add([this, saved, pose = trajectory_.back().world_from_left, cloud = cloudOf(state),
+               nodes_mm = state.graph.positions_mm] {
+    makeFolder(file(kModels));
+    makeFolder(file(kNodes));
+    writeModel(saved, pose, cloud, nodes_mm);
+  });
+  if (saved_.empty() || saved_.back().frame != frame) saved_.push_back(saved);
 }
 
-void RunFolder::writeTables(const ModelState& state) {
-  begin();
-  writeFile(file("frames.csv"), framesCsvHeading() + "\n" + frames_csv_, true);
-  if (options_.tracks) writeFile(file("tracks.csv"), tracksCsvHeading() + "\n" + tracks_csv_, true);
-  if (!images_csv_.empty()) writeFile(file(kImages), imagesCsvHeading() + "\n" + images_csv_, true);
-  if (!trajectory_.empty()) writeTrajectory(file("trajectory.txt"), trajectory_, true);
-  if (!trajectory_.empty()) writeFile(file(kKitti), kittiText(trajectory_), true);
-  writePly(file("model.ply"), cloudOf(state), {"world", ""}, true);
-  if (options_.save_every == 0) return;
+std::string RunFolder::modelsPvd() const {
   std::string pvd =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
       "byte_order=\"LittleEndian\">\n<Collection>\n";
   for (const SavedModel& saved : saved_)
     pvd += say("<DataSet timestep=\"", saved.time_s, "\" file=\"models/",
                numberedName(saved.frame, ".vtp"), "\"/>\n");
-  writeFile(file("models.pvd"), pvd + "</Collection>\n</VTKFile>\n", true);
+  return pvd + "</Collection>\n</VTKFile>\n";
 }
 
-void RunFolder::writeOtherMaps(const std::vector<Submap>& others) {
-  removeOtherMaps(options_.folder, others);
-  for (const Submap& other : others)
-    writePly(file(otherMapName(other.scope.map)), cloudOf(other.model), {"world", ""}, true);
+void RunFolder::writeOtherMaps(const std::vector<OtherMap>& others) const {
+  std::vector<std::string> kept;
+  for (const OtherMap& other : others) kept.push_back(otherMapName(other.map));
+  removeOtherMaps(options_.folder, kept);
+  for (const OtherMap& other : others)
+    writePly(file(otherMapName(other.map)), other.cloud, {"world", ""}, true);
+}
+
+void RunFolder::writeTables(const Tables& tables) {
+  addRows(tables.due);
+  const auto write = [&](const char* name, const std::string& text) {
+    writeFile(file(name), text, true);
+  };
+  write("frames.csv", framesCsvHeading() + "\n" + frames_csv_);
+  if (options_.tracks) write("tracks.csv", tracksCsvHeading() + "\n" + tracks_csv_);
+  if (!tables.images_csv.empty()) write(kImages, imagesCsvHeading() + "\n" + tables.images_csv);
+  write("trajectory.txt", trajectoryText(tables.trajectory));
+  write(kKitti, kittiText(tables.trajectory));
+  if (!tables.models_pvd.empty()) write("models.pvd", tables.models_pvd);
 }
 
 void RunFolder::flush(const CheckpointView& checkpoint) {
-  writeTables(checkpoint.state.model);
-  writeOtherMaps(checkpoint.state.others);
-  writeFile(file(kCheckpoint), checkpointBytes(checkpoint), true);
+  begin();
+  Tables tables{std::exchange(due_, {}), images_csv_, trajectory_,
+                options_.save_every > 0 ? modelsPvd() : std::string()};
+  std::vector<OtherMap> others;
+  for (const Submap& other : checkpoint.state.others)
+    others.push_back({other.scope.map, cloudOf(other.model)});
+  writer_.add([this, tables = std::move(tables), cloud = cloudOf(checkpoint.state.model),
+               others = std::move(others), state = checkpointBytes(checkpoint)] {
+    writeTables(tables);
+    writePly(file("model.ply"), cloud, {"world", ""}, true);
+    writeOtherMaps(others);
+    writeFile(file(kCheckpoint), state, true);  // last: what it continues is complete
+  });
   unflushed_frames_ = 0;
 }
 
@@ -364,6 +390,7 @@ void RunFolder::saveLastModel(const ModelState& state) {
 
 void RunFolder::writeRecord(const FactSheet::Json& record, bool complete) {
   begin();
+  writer_.finish();
   writeFile(file(kCrateFile), jsonText(roCrate(options_.folder, record, today())), true);
   writeFile(file(kRecordFile), jsonText(record), true);
   if (complete) fs::remove(file(kCheckpoint));

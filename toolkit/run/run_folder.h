@@ -15,6 +15,7 @@
 #include "pipeline/checkpoint.h"
 #include "pipeline/frame_record.h"
 #include "toolkit/record/fact_sheet.h"
+#include "toolkit/run/write_behind.h"
 
 namespace softscope {
 
@@ -33,8 +34,9 @@ struct RunFolderOptions {
   int checkpoint_every = kCheckpointFrames;  // frames between flushes
 };
 
-/// Tables and models of one run. Files are written atomically; flush()
-/// updates all of them, so that the results survive a later failure.
+/// Tables and models of one run. Files are written atomically, on a thread of their own; flush()
+/// updates all of them, so that the results survive a later failure. Where one can't be written,
+/// a later call or writeRecord() throws.
 class RunFolder {
  public:
   /// Throws OptionError for an unusable folder: a file, a run
@@ -78,14 +80,28 @@ class RunFolder {
     int frame = 0;
     double time_s = 0;
   };
+  /// As they are at a flush.
+  struct Tables {
+    std::vector<FrameRecord> due;
+    std::string images_csv;
+    Trajectory trajectory;
+    std::string models_pvd;
+  };
+  /// The model of a map that is not in use.
+  struct OtherMap {
+    int map = 0;
+    PointCloud cloud;
+  };
   struct PlacedFrame {
     int frame = 0;
     int map = 0;  // in whose world the pose is
   };
   void begin();
   void hold();
-  void writeTables(const ModelState& state);
-  void writeOtherMaps(const std::vector<Submap>& others);
+  void addRows(const std::vector<FrameRecord>& records);
+  void writeTables(const Tables& tables);
+  std::string modelsPvd() const;
+  void writeOtherMaps(const std::vector<OtherMap>& others) const;
   void join(const MapJoin& join);
   void writeModel(const SavedModel& saved, const Eigen::Isometry3d& world_from_left,
                   const PointCloud& cloud, const std::vector<Eigen::Vector3d>& nodes_mm) const;
@@ -97,12 +113,15 @@ class RunFolder {
   bool begun_ = false;
   int last_frame_ = -1;  // frame added last
   int unflushed_frames_ = 0;
-  std::string frames_csv_, tracks_csv_, images_csv_;
+  std::vector<FrameRecord> due_;         // without rows yet
+  std::string frames_csv_, tracks_csv_;  // of the writer, while it works
+  std::string images_csv_;
   Trajectory trajectory_;
   std::vector<PlacedFrame> placed_;  // one per pose
   PinholeCamera left_;
   std::vector<SavedModel> saved_;
   std::optional<FileLock> lock_;
+  WriteBehind writer_;  // ends before all
 };
 
 /// Point cloud with weights, in the world frame, in the illumination of the last fused image.
