@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "io/text/message.h"
 
 namespace softscope {
 namespace {
@@ -28,6 +29,14 @@ bool isInside(const fs::path& path, const fs::path& folder) {
 }
 
 }  // namespace
+
+void makeFolder(const fs::path& out) {
+  std::error_code failure;
+  fs::create_directories(out, failure);
+  if (failure)
+    throw InputError("`out=` " + shown(out) + ": can't be made: " + failure.message() +
+                     ". Choose a folder that you may write to");
+}
 
 void requireApart(const fs::path& out, const SequencePaths& sequence) {
   std::error_code ignored;

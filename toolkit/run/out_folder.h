@@ -1,4 +1,4 @@
-// toolkit/run/out_folder.h: separation of results from their inputs.
+// toolkit/run/out_folder.h: folders of results, apart from their inputs.
 #pragma once
 
 #include <filesystem>
@@ -6,6 +6,9 @@
 #include "io/sequences/sequence_paths.h"
 
 namespace softscope {
+
+/// With its parents. Throws InputError.
+void makeFolder(const std::filesystem::path& out);
 
 /// Throws OptionError if `out` is, or is inside, a folder of images,
 /// masks or depth of the sequence: results would be read as frames.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 
@@ -18,11 +17,10 @@
 #include "io/text/text_lines.h"
 #include "pipeline/model/model_sigma.h"
 #include "toolkit/record/json_text.h"
-#include "toolkit/run/model_file.h"
-#include "toolkit/run/models_on_disk.h"
+#include "toolkit/run/out_folder.h"
 #include "toolkit/run/ro_crate.h"
 #include "toolkit/run/run_tables.h"
-#include "vtk_views/files/point_cloud_vtp.h"
+#include "toolkit/run/saved_model.h"
 
 namespace softscope {
 namespace {
@@ -30,8 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kCheckpoint = "checkpoint.bin";
-constexpr const char* kModels = "models";
-constexpr const char* kNodes = "nodes";
 constexpr std::uintmax_t kCheckpointLimitBytes = std::uintmax_t{8} << 30;
 constexpr const char* kImages = "images.csv";
 constexpr const char* kKitti = "trajectory_kitti.txt";
@@ -39,13 +35,6 @@ constexpr const char* kKitti = "trajectory_kitti.txt";
 const char* const kRunFiles[] = {"model.ply", "frames.csv", "trajectory.txt", kKitti,
                                  kImages,     "tracks.csv", "models.pvd",     kRecordFile,
                                  kCheckpoint, kCrateFile};
-
-/// Of a model, or of its nodes.
-bool isSavedModel(const fs::path& file) {
-  const std::string stem = file.stem().string(), end = file.extension().string();
-  return stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos &&
-         (end == ".ply" || end == ".vtp" || end == ".csv");
-}
 
 std::string otherMapName(int map) { return say("model_map", map, ".ply"); }
 
@@ -71,14 +60,6 @@ bool holdsRun(const fs::path& folder) {
   for (const char* name : kRunFiles)
     if (fs::exists(folder / name)) return true;
   return fs::exists(folder / kModels);
-}
-
-void makeFolder(const fs::path& folder) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure)
-    throw InputError("`out=` " + shown(folder) + ": can't be made: " + failure.message() +
-                     ". Choose a folder that you may write to");
 }
 
 [[noreturn]] void refuseBusy(const fs::path& folder) {
@@ -115,50 +96,6 @@ std::string linesBefore(const fs::path& file, int next_frame) {
     kept.append(line).append("\n");
   }
   return kept;
-}
-
-std::string numbers(std::initializer_list<double> values) {
-  std::string text;
-  for (const double value : values) text += " " + exactText(value);
-  return text;
-}
-
-/// What a viewer needs that reads this model alone, also while the run goes on.
-std::vector<std::string> momentComments(double time_s, const Eigen::Isometry3d& world_from_left,
-                                        const PinholeCamera& left) {
-  const Eigen::Vector3d t = world_from_left.translation();
-  const Eigen::Quaterniond q(world_from_left.linear());
-  return {"time_s" + numbers({time_s}),
-          "world_from_left" + numbers({t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}),
-          "left_camera" + numbers({double(left.width_px), double(left.height_px), left.fx_px,
-                                   left.fy_px, left.cx_px, left.cy_px})};
-}
-
-std::string nodesCsv(const std::vector<Eigen::Vector3d>& nodes_mm) {
-  std::string text = "node,x_mm,y_mm,z_mm\n";
-  char line[120];
-  for (std::size_t i = 0; i < nodes_mm.size(); ++i) {
-    const Eigen::Vector3d& p = nodes_mm[i];
-    std::snprintf(line, sizeof line, "%zu,%.4f,%.4f,%.4f\n", i, p.x(), p.y(), p.z());
-    text += line;
-  }
-  return text;
-}
-
-std::vector<Eigen::Vector3d> readNodes(const fs::path& file) {
-  std::vector<Eigen::Vector3d> nodes_mm;
-  const std::string text = readBytes(file);
-  for (const NumberRow& row : numberRows(text))
-    if (row.values.size() == 4) nodes_mm.emplace_back(row.values[1], row.values[2], row.values[3]);
-  return nodes_mm;
-}
-
-PointCloud movedCloud(const ModelFile& model, const Eigen::Isometry3f& motion) {
-  PointCloud cloud{model.model.positions_mm, model.model.normals, model.model.colours,
-                   model.model.weights, model.sigmas_mm};
-  for (Eigen::Vector3f& point_mm : cloud.points_mm) point_mm = motion * point_mm;
-  for (Eigen::Vector3f& normal : cloud.normals) normal = motion.linear() * normal;
-  return cloud;
 }
 
 int countLines(const std::string& text) {
@@ -249,13 +186,7 @@ void RunFolder::begin() {
   hold();
   for (const char* name : kRunFiles) fs::remove(file(name));
   removeOtherMaps(options_.folder, {});
-  for (const char* saved : {kModels, kNodes}) {
-    if (!fs::is_directory(file(saved))) continue;
-    std::vector<fs::path> earlier;
-    for (const auto& entry : fs::directory_iterator(file(saved)))
-      if (isSavedModel(entry.path())) earlier.push_back(entry.path());
-    for (const fs::path& path : earlier) fs::remove(path);
-  }
+  removeSavedModels(options_.folder);
 }
 
 void RunFolder::add(const FrameRecord& record, const FrameNames& names) {
@@ -291,48 +222,20 @@ void RunFolder::join(const MapJoin& join) {
     const auto saved = std::find_if(saved_.begin(), saved_.end(), [&](const SavedModel& model) {
       return model.frame == placed_[k].frame;
     });
-    if (saved != saved_.end()) moveModel(*saved, pose, join.into_from);
+    if (saved != saved_.end())
+      moveSavedModel(options_.folder, {saved->frame, saved->time_s, pose, left_}, join.into_from);
     pose = join.into_from * pose;
   }
 }
 
-/// A model that was moved already, by a run that was killed since, stays.
-void RunFolder::moveModel(const SavedModel& saved, const Eigen::Isometry3d& before,
-                          const Eigen::Isometry3d& motion) const {
-  const fs::path path = file(kModels) / numberedName(saved.frame, ".ply");
-  const Eigen::Isometry3d after = motion * before;
-  const Eigen::Isometry3d written =
-      readModelHead(saved.frame, path).world_from_left.value_or(before);
-  const auto distance = [&](const Eigen::Isometry3d& pose) {
-    return (pose.matrix() - written.matrix()).norm();
-  };
-  if (distance(after) < distance(before)) return;
-  std::vector<Eigen::Vector3d> nodes_mm =
-      readNodes(file(kNodes) / numberedName(saved.frame, ".csv"));
-  for (Eigen::Vector3d& node_mm : nodes_mm) node_mm = motion * node_mm;
-  writeModel(saved, after, movedCloud(readModel(path), motion.cast<float>()), nodes_mm);
-}
-
-void RunFolder::writeModel(const SavedModel& saved, const Eigen::Isometry3d& world_from_left,
-                           const PointCloud& cloud,
-                           const std::vector<Eigen::Vector3d>& nodes_mm) const {
-  writeFile(file(kNodes) / numberedName(saved.frame, ".csv"), nodesCsv(nodes_mm), true);
-  writeFile(file(kModels) / numberedName(saved.frame, ".vtp"), pointCloudVtp(cloud), true);
-  // Last: a reader of a growing run that finds the model finds the rest.
-  writePly(file(kModels) / numberedName(saved.frame, ".ply"), cloud,
-           {"world", "", momentComments(saved.time_s, world_from_left, left_)}, true);
-}
-
 void RunFolder::saveModel(int frame, double time_s, const ModelState& state) {
   begin();
-  const SavedModel saved{frame, std::isfinite(time_s) ? time_s : frame};
-  writer_.add([this, saved, pose = trajectory_.back().world_from_left, cloud = cloudOf(state),
-               nodes_mm = state.graph.positions_mm] {
-    makeFolder(file(kModels));
-    makeFolder(file(kNodes));
-    writeModel(saved, pose, cloud, nodes_mm);
+  const ModelMoment moment{frame, std::isfinite(time_s) ? time_s : frame,
+                           trajectory_.back().world_from_left, left_};
+  writer_.add([this, moment, cloud = cloudOf(state), nodes_mm = state.graph.positions_mm] {
+    writeSavedModel(options_.folder, moment, cloud, nodes_mm);
   });
-  if (saved_.empty() || saved_.back().frame != frame) saved_.push_back(saved);
+  if (saved_.empty() || saved_.back().frame != frame) saved_.push_back({frame, moment.time_s});
 }
 
 std::string RunFolder::modelsPvd() const {

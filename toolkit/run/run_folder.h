@@ -76,10 +76,6 @@ class RunFolder {
   void writeRecord(const FactSheet::Json& record, bool complete);
 
  private:
-  struct SavedModel {
-    int frame = 0;
-    double time_s = 0;
-  };
   /// As they are at a flush.
   struct Tables {
     std::vector<FrameRecord> due;
@@ -92,6 +88,10 @@ class RunFolder {
     int map = 0;
     PointCloud cloud;
   };
+  struct SavedModel {
+    int frame = 0;
+    double time_s = 0;
+  };
   struct PlacedFrame {
     int frame = 0;
     int map = 0;  // in whose world the pose is
@@ -103,10 +103,6 @@ class RunFolder {
   std::string modelsPvd() const;
   void writeOtherMaps(const std::vector<OtherMap>& others) const;
   void join(const MapJoin& join);
-  void writeModel(const SavedModel& saved, const Eigen::Isometry3d& world_from_left,
-                  const PointCloud& cloud, const std::vector<Eigen::Vector3d>& nodes_mm) const;
-  void moveModel(const SavedModel& saved, const Eigen::Isometry3d& before,
-                 const Eigen::Isometry3d& motion) const;
   std::filesystem::path file(const std::string& name) const { return options_.folder / name; }
 
   RunFolderOptions options_;

@@ -34,7 +34,9 @@ std::string headerOf(const PointCloud& cloud, const PlyComments& comments) {
 void append(std::string& out, float value) {
   std::uint32_t bits;
   std::memcpy(&bits, &value, 4);
-  for (int i = 0; i < 4; ++i) out += static_cast<char>(bits >> (8 * i) & 0xFF);
+  char bytes[4];
+  for (int i = 0; i < 4; ++i) bytes[i] = static_cast<char>(bits >> (8 * i) & 0xFF);
+  out.append(bytes, 4);
 }
 
 void append(std::string& out, const Eigen::Vector3f& vector) {
