@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
+
 namespace softscope {
 namespace {
 
 constexpr int kBlock = 256;  // pairs whose columns stay in the nearest cache
+
+constexpr int kBlocksPerTask = 4;
 
 using Column = Eigen::Array<double, Eigen::Dynamic, 1, 0, kBlock, 1>;  // no memory of its own
 
@@ -30,15 +34,19 @@ PairColumns::PairColumns(const PointPairs& pairs) {
   for (std::size_t i = 0; i < pairs.sources_mm.size(); ++i)
     if (isUsable(pairs, i)) pairs_.push_back(i);
   weights_.resize(size());
-  for (int i = 0; i < size(); ++i) weights_[i] = pairs.weight(pair(i));
   for (int c = 0; c < 3; ++c) {
     source_[c].resize(size());
     target_[c].resize(size());
-    for (int i = 0; i < size(); ++i) {
-      source_[c][i] = pairs.sources_mm[pair(i)][c];
-      target_[c][i] = pairs.targets_mm[pair(i)][c];
-    }
   }
+  parallelRanges(size(), kBlocksPerTask * kBlock, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      weights_[i] = pairs.weight(pair(i));
+      for (int c = 0; c < 3; ++c) {
+        source_[c][i] = pairs.sources_mm[pair(i)][c];
+        target_[c][i] = pairs.targets_mm[pair(i)][c];
+      }
+    }
+  });
 }
 
 void PairColumns::squaresIn(const Eigen::Isometry3f& target_from_source, int begin, int count,
@@ -76,29 +84,44 @@ double PairColumns::truncatedScore(const Eigen::Isometry3f& target_from_source, 
   return score;
 }
 
-PairSums PairColumns::sumsWithin(const Eigen::ArrayXf& squares, float limit) const {
+PairSums PairColumns::sumsInBlock(const Eigen::ArrayXf& squares, float limit, int begin) const {
+  const int count = std::min(kBlock, size() - begin);
+  const Column weights = (squares.segment(begin, count) <= limit)
+                             .select(weights_.segment(begin, count), 0.0f)
+                             .cast<double>();
+  std::array<Column, 3> source, target;
+  for (int c = 0; c < 3; ++c) {
+    source[c] = source_[c].segment(begin, count).cast<double>();
+    target[c] = target_[c].segment(begin, count).cast<double>();
+  }
   PairSums sums;
-  forBlocks(size(), [&](int begin, int count) {
-    const Column weights = (squares.segment(begin, count) <= limit)
-                               .select(weights_.segment(begin, count), 0.0f)
-                               .cast<double>();
-    std::array<Column, 3> source, target;
-    for (int c = 0; c < 3; ++c) {
-      source[c] = source_[c].segment(begin, count).cast<double>();
-      target[c] = target_[c].segment(begin, count).cast<double>();
+  sums.weight = weights.sum();
+  for (int c = 0; c < 3; ++c) {
+    const Column weighted_source = weights * source[c], weighted_target = weights * target[c];
+    sums.source[c] = weighted_source.sum();
+    sums.target[c] = weighted_target.sum();
+    for (int d = 0; d < 3; ++d) {
+      sums.cross(c, d) = (weighted_target * source[d]).sum();
+      if (d <= c) sums.squares(c, d) = (weighted_source * source[d]).sum();
     }
-    sums.weight += weights.sum();
-    for (int c = 0; c < 3; ++c) {
-      const Column weighted_source = weights * source[c], weighted_target = weights * target[c];
-      sums.source[c] += weighted_source.sum();
-      sums.target[c] += weighted_target.sum();
-      for (int d = 0; d < 3; ++d) {
-        sums.cross(c, d) += (weighted_target * source[d]).sum();
-        if (d <= c) sums.squares(c, d) += (weighted_source * source[d]).sum();
-      }
-    }
-    return true;
+  }
+  return sums;
+}
+
+/// The order of the sums does not depend on threads.
+PairSums PairColumns::sumsWithin(const Eigen::ArrayXf& squares, float limit) const {
+  std::vector<PairSums> blocks(static_cast<std::size_t>((size() + kBlock - 1) / kBlock));
+  parallelRanges(static_cast<int>(blocks.size()), kBlocksPerTask, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) blocks[k] = sumsInBlock(squares, limit, k * kBlock);
   });
+  PairSums sums;
+  for (const PairSums& block : blocks) {
+    sums.weight += block.weight;
+    sums.source += block.source;
+    sums.target += block.target;
+    sums.cross += block.cross;
+    sums.squares += block.squares;
+  }
   sums.squares.triangularView<Eigen::StrictlyUpper>() = sums.squares.transpose();
   return sums;
 }

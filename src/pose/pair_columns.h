@@ -31,6 +31,8 @@ class PairColumns {
   PairSums sumsWithin(const Eigen::ArrayXf& squares, float limit) const;
 
  private:
+  /// Of the block that begins there, without the upper half of the squares.
+  PairSums sumsInBlock(const Eigen::ArrayXf& squares, float limit, int begin) const;
   void squaresIn(const Eigen::Isometry3f& target_from_source, int begin, int count,
                  float* squares) const;
 

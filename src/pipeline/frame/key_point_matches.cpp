@@ -1,5 +1,6 @@
 #include "pipeline/frame/key_point_matches.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -29,6 +30,16 @@ std::optional<KeyPointMatch> keyPointMatch(const LiftedMatch& match, bool is_out
   return pull;
 }
 
+/// In their order.
+std::vector<KeyPointMatch> joined(const std::vector<std::vector<KeyPointMatch>>& parts) {
+  std::size_t count = 0;
+  for (const auto& part : parts) count += part.size();
+  std::vector<KeyPointMatch> all;
+  all.reserve(count);
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 }  // namespace
 
 std::vector<KeyPointMatch> keyPointMatches(const std::vector<LiftedMatch>& lifted,
@@ -36,16 +47,19 @@ std::vector<KeyPointMatch> keyPointMatches(const std::vector<LiftedMatch>& lifte
                                            const AssociationOptions& association,
                                            const Eigen::Isometry3d& world_from_left) {
   if (!pose.found) return {};
-  std::vector<std::optional<KeyPointMatch>> pulls(lifted.size());
-  parallelRanges(static_cast<int>(lifted.size()), kMatchesPerTask, [&](int begin, int end) {
-    for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      pulls[i] = keyPointMatch(lifted[i], pose.inlier[i] == 0, association, world_from_left);
+  const int count = static_cast<int>(lifted.size());
+  const int tasks = (count + kMatchesPerTask - 1) / kMatchesPerTask;
+  std::vector<std::vector<KeyPointMatch>> parts(static_cast<std::size_t>(tasks));
+  parallelRanges(tasks, 1, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      parts[k].reserve(kMatchesPerTask);
+      for (int i = k * kMatchesPerTask; i < std::min(count, (k + 1) * kMatchesPerTask); ++i)
+        if (const auto pull =
+                keyPointMatch(lifted[i], pose.inlier[i] == 0, association, world_from_left))
+          parts[k].push_back(*pull);
+    }
   });
-  std::vector<KeyPointMatch> matches;
-  matches.reserve(pulls.size());
-  for (const std::optional<KeyPointMatch>& pull : pulls)
-    if (pull) matches.push_back(*pull);
-  return matches;
+  return joined(parts);
 }
 
 }  // namespace softscope

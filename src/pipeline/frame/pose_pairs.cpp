@@ -31,16 +31,19 @@ PosePair refinementPair(const LiftedMatch& match, const PointModel& model, const
 
 PointPairs posePairs(const std::vector<LiftedMatch>& matches) {
   PointPairs pairs;
-  pairs.sources_mm.reserve(matches.size());
-  pairs.targets_mm.reserve(matches.size());
-  pairs.weights.reserve(matches.size());
-  for (const LiftedMatch& match : matches) {
-    pairs.sources_mm.push_back(match.target_left_mm);
-    pairs.targets_mm.push_back(match.source_world_mm);
-    const float along = std::isfinite(match.along_mm) ? match.along_mm : match.across_mm;
-    const float variance = (2 * match.across_mm * match.across_mm + along * along) / 3;
-    pairs.weights.push_back(1 / std::max(variance, 1e-6f));
-  }
+  pairs.sources_mm.resize(matches.size());
+  pairs.targets_mm.resize(matches.size());
+  pairs.weights.resize(matches.size());
+  parallelRanges(static_cast<int>(matches.size()), 4 * kPairsPerTask, [&](int begin, int end) {
+    for (std::size_t i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      const LiftedMatch& match = matches[i];
+      pairs.sources_mm[i] = match.target_left_mm;
+      pairs.targets_mm[i] = match.source_world_mm;
+      const float along = std::isfinite(match.along_mm) ? match.along_mm : match.across_mm;
+      const float variance = (2 * match.across_mm * match.across_mm + along * along) / 3;
+      pairs.weights[i] = 1 / std::max(variance, 1e-6f);
+    }
+  });
   return pairs;
 }
 
