@@ -1,4 +1,4 @@
-// tests/stereo/view_masks_test.cpp: what is masked or black border is known before matching.
+// tests/stereo/view_masks_test.cpp: what is masked or border is known before matching.
 #include "stereo/images/view_masks.h"
 
 #include <gtest/gtest.h>
@@ -26,10 +26,11 @@ Mask slantedFrame(int width, int height) {
   return mask;
 }
 
-void blacken(const Mask& mask, GrayImage& image) {
+void paint(const Mask& mask, std::uint8_t level, GrayImage& image) {
   for (std::size_t i = 0; i < image.size(); ++i)
-    if (mask.values[i] != 0) image.values[i] = 0;
+    if (mask.values[i] != 0) image.values[i] = level;
 }
+void blacken(const Mask& mask, GrayImage& image) { paint(mask, 0, image); }
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
@@ -181,19 +182,19 @@ TEST(HalvedMask, KeepsEveryMaskedPixel) {
     for (int u = 0; u < 4; ++u) EXPECT_EQ(half.at(u, v) != 0, u == 1 && v == 2);
 }
 
-TEST(BlackBorder, IsFoundWithItsCutAndNothingElse) {
+TEST(Border, IsFoundWithItsCutAndNothingElse) {
   auto scene = test::makeScene(test::endoscope(), test::plane(55), 2.0);
   const Mask frame = slantedFrame(320, 240);
   blacken(frame, scene.left);
   for (int v = 100; v < 120; ++v)  // a dark hole in the tissue is no border
     for (int u = 150; u < 180; ++u) scene.left.at(u, v) = 0;
-  const Mask found = findBlackBorder(test::colourOf(scene.left));
+  const Mask found = findBorder(test::colourOf(scene.left));
   ASSERT_TRUE(found.sameShape(frame));
   for (std::size_t i = 0; i < frame.size(); ++i)
     EXPECT_EQ(found.values[i] != 0, frame.values[i] != 0) << i % 320 << ", " << i / 320;
 }
 
-TEST(BlackBorder, IsFoundOnAnySideFromSixPixelsOn) {
+TEST(Border, IsFoundOnAnySideFromSixPixelsOn) {
   constexpr int kImageWidth = 96, kImageHeight = 64;
   const auto blackened = [&](int u0, int v0, int u1, int v1) {
     ColourImage image = test::colourOf(GrayImage(kImageWidth, kImageHeight, 90));
@@ -203,34 +204,72 @@ TEST(BlackBorder, IsFoundOnAnySideFromSixPixelsOn) {
   };
   for (const int deep : {5, 6, 7}) {
     const bool found = deep >= 6;  // half a square and its centre
-    EXPECT_EQ(findBlackBorder(blackened(0, 0, kImageWidth, deep)).empty(), !found);
-    EXPECT_EQ(findBlackBorder(blackened(0, kImageHeight - deep, kImageWidth, kImageHeight)).empty(),
+    EXPECT_EQ(findBorder(blackened(0, 0, kImageWidth, deep)).empty(), !found);
+    EXPECT_EQ(findBorder(blackened(0, kImageHeight - deep, kImageWidth, kImageHeight)).empty(),
               !found);
-    EXPECT_EQ(findBlackBorder(blackened(0, 0, deep, kImageHeight)).empty(), !found);
-    EXPECT_EQ(findBlackBorder(blackened(kImageWidth - deep, 0, kImageWidth, kImageHeight)).empty(),
+    EXPECT_EQ(findBorder(blackened(0, 0, deep, kImageHeight)).empty(), !found);
+    EXPECT_EQ(findBorder(blackened(kImageWidth - deep, 0, kImageWidth, kImageHeight)).empty(),
               !found);
   }
   for (const int wide : {10, 11}) {  // a square at the edge; in a corner half of it is enough
     const bool found = wide >= 11;
-    EXPECT_EQ(findBlackBorder(blackened(40, 0, 40 + wide, 8)).empty(), !found);
-    EXPECT_EQ(findBlackBorder(blackened(0, 30, 8, 30 + wide)).empty(), !found);
+    EXPECT_EQ(findBorder(blackened(40, 0, 40 + wide, 8)).empty(), !found);
+    EXPECT_EQ(findBorder(blackened(0, 30, 8, 30 + wide)).empty(), !found);
   }
-  EXPECT_FALSE(findBlackBorder(blackened(0, 0, 6, 6)).empty());
+  EXPECT_FALSE(findBorder(blackened(0, 0, 6, 6)).empty());
   EXPECT_FALSE(
-      findBlackBorder(blackened(kImageWidth - 6, kImageHeight - 6, kImageWidth, kImageHeight))
-          .empty());
-  EXPECT_TRUE(findBlackBorder(blackened(40, 30, 60, 50)).empty());  // a hole in the tissue
+      findBorder(blackened(kImageWidth - 6, kImageHeight - 6, kImageWidth, kImageHeight)).empty());
+  EXPECT_TRUE(findBorder(blackened(40, 30, 60, 50)).empty());  // a hole in the tissue
 }
 
-TEST(BlackBorder, IsNotTheDarkBackgroundOfAnOrgan) {
+TEST(Border, MayBeGreyButNotNoisyOrBright) {
+  const auto scene = test::makeScene(test::endoscope(), test::plane(55), 2.0);
+  const Mask frame = slantedFrame(320, 240);
+  for (const std::uint8_t level : {16, 40, 100}) {
+    GrayImage framed = scene.left;
+    paint(frame, level, framed);
+    const Mask found = findBorder(test::colourOf(framed));
+    ASSERT_TRUE(found.sameShape(frame)) << int(level);
+    const Mask reach = dilated(frame, 14);  // tissue of this level beside it is taken for border
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      if (frame.values[i] != 0) EXPECT_NE(found.values[i], 0);
+      if (reach.values[i] == 0) EXPECT_EQ(found.values[i], 0);
+    }
+  }
+  GrayImage bright = scene.left, noisy = scene.left;
+  paint(frame, 255, bright);
+  EXPECT_TRUE(findBorder(test::colourOf(bright)).empty());
+  paint(frame, 40, noisy);
+  std::mt19937 random(1);
+  for (std::size_t i = 0; i < frame.size(); ++i)
+    if (frame.values[i] != 0) noisy.values[i] += static_cast<std::uint8_t>(random() % 4);
+  EXPECT_TRUE(findBorder(test::colourOf(noisy)).empty());
+}
+
+TEST(Border, MayBeGreyWithinTheBlackOfRectification) {
+  auto scene = test::makeScene(test::endoscope(), test::plane(55), 2.0);
+  const Mask frame = slantedFrame(320, 240);
+  paint(frame, 30, scene.left);
+  Mask outside(320, 240, 0);
+  for (int v = 0; v < 240; ++v)
+    for (int u = 0; u < 320; ++u) outside.at(u, v) = u < 7 || u >= 313 || v < 7 || v >= 233;
+  blacken(outside, scene.left);
+  const Mask found = findBorder(test::colourOf(scene.left));
+  ASSERT_TRUE(found.sameShape(frame));
+  for (std::size_t i = 0; i < frame.size(); ++i)
+    if (frame.values[i] != 0) EXPECT_NE(found.values[i], 0) << i % 320 << ", " << i / 320;
+  EXPECT_EQ(found.at(160, 120), 0);
+}
+
+TEST(Border, IsNotTheDarkBackgroundOfAnOrgan) {
   // A ball in front of nothing; the background has the noise of the sensor, too.
   const auto scene = test::makeScene(test::endoscope(), test::sphere({0, 0, 60}, 18), 3.0);
-  EXPECT_TRUE(findBlackBorder(test::colourOf(scene.left)).empty());
+  EXPECT_TRUE(findBorder(test::colourOf(scene.left)).empty());
 }
 
-TEST(BlackBorder, IsNotAnImageThatIsBlackAltogether) {
-  EXPECT_TRUE(findBlackBorder(ColourImage(64, 48)).empty());
-  EXPECT_TRUE(findBlackBorder(test::colourOf(GrayImage(64, 48, 90))).empty());
+TEST(Border, IsNotAnImageThatIsBlackAltogether) {
+  EXPECT_TRUE(findBorder(ColourImage(64, 48)).empty());
+  EXPECT_TRUE(findBorder(test::colourOf(GrayImage(64, 48, 90))).empty());
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ ViewErrors ViewJudge::judge(const ModelFile& file, const Eigen::Isometry3d& run_
   const auto picture = photograph(frame);
   if (!picture) return errors;
   errors.picture = pictureErrors(view.colour, *picture, ignoreUnmeasured(view.depth_mm),
-                                 united(ignore, findBlackBorder(*picture)));
+                                 united(ignore, findBorder(*picture)));
   if (drawn != nullptr) {
     *drawn = {*picture, view.colour};
     for (std::size_t i = 0; i < view.depth_mm.size(); ++i)
@@ -102,7 +102,7 @@ PictureErrors ViewJudge::judgeImage(const ModelFile& file, const Eigen::Isometry
   if (!file.coloured || !earlier || !picture) return {};
   const ModelDrawing view = drawModel(file.model, rig_.left, run_from_left);
   return pictureErrors(*earlier, *picture, ignoreUnmeasured(view.depth_mm),
-                       united(instruments(frame), findBlackBorder(*picture)));
+                       united(instruments(frame), findBorder(*picture)));
 }
 
 }  // namespace softscope

@@ -19,7 +19,7 @@ namespace softscope {
 struct MeasuredFrame {
   std::string method;  // elas, sgbm, onnx or files
   ColourImage left;    // rectified
-  Mask mask;    // instruments, black border, pixels outside of the raw left image; may be empty
+  Mask mask;    // instruments, even border, pixels outside of the raw left image; may be empty
   Mask border;  // part of it known before matching; may be empty
   DisparityMap disparity;  // empty with depth from a file; may be in a reconstruction
   DepthMap depth;          // NaN under the mask

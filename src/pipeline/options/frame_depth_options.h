@@ -12,7 +12,7 @@ struct FrameDepthOptions {
   std::string source =
       "auto";               // the sequence's own depth/ where there is one; or "stereo", "files"
   bool align_rows = true;   // remove a residual row error where it is large enough
-  bool find_border = true;  // mask the black border of the views
+  bool find_border = true;  // mask even borders of the views
   bool detect_instruments = true;  // and smoke: without red, and apart from the tissue
   StereoOptions stereo;
 

@@ -17,7 +17,8 @@ void describe(Visitor& v, FrameDepthOptions& o) {
   v("depth.source", o.source, oneOf({"auto", "stereo", "files"}),
     "stereo, or the sequence's depth/; auto: depth/ where it is there");
   v("depth.align_rows", o.align_rows, "measure and remove vertical disparity above 0.2 px");
-  v("depth.find_border", o.find_border, "mask black borders of the views before matching");
+  v("depth.find_border", o.find_border,
+    "mask even borders of the views, black or grey, before matching");
   describe(v, o.stereo);
   v("tissue.detect_instruments", o.detect_instruments,
     "drop surfaces without red that are apart from the tissue: instruments without a mask, smoke");

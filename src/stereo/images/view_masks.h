@@ -5,7 +5,7 @@
 
 namespace softscope {
 
-/// Non-zero: outside the tissue (instrument, black border, outside the raw image). Each is empty or
+/// Non-zero: outside the tissue (instrument, even border, outside the raw image). Each is empty or
 /// has its view's shape.
 struct ViewMasks {
   Mask left, right;
