@@ -48,6 +48,28 @@ TEST(ViewPlane, ObliqueViewsLookFromTheNearestStandardSideAndShowDoubles) {
   EXPECT_THROW(obliqueView({0, 0, 0}, {0, 0, 0}, kPatient, kRadiological), OptionError);
 }
 
+TEST(ViewPlane, ObliqueViewsHaveLeftWhereTheOthersHaveIt) {
+  for (const Vector3d& normal : {Vector3d(1, 1, 2),
+                                 {1, 1, 1.01},
+                                 {1, 1, 1},
+                                 {1, 1, 0},
+                                 {1, 0.9, 0},
+                                 {0.9, 1, 0},
+                                 {-1, -1, -1},
+                                 {1, -0.5, 0.2},
+                                 {-0.3, 0.1, 0.2}}) {
+    const ViewPlane radiological = obliqueView({0, 0, 0}, normal, kPatient, kRadiological);
+    EXPECT_GT(radiological.right.x(), 0.26) << normal.transpose();
+    const ViewPlane other = obliqueView({0, 0, 0}, normal, kPatient, SideRule::kNeurological);
+    EXPECT_LT(other.right.x(), -0.26) << normal.transpose();
+    EXPECT_GT(other.up.dot(radiological.up), 0.99);
+  }
+  for (const Vector3d& normal : {Vector3d(1, 0.2, 0), {-1, -0.2, 0.1}, {1, -0.2, -0.1}}) {
+    const ViewPlane view = obliqueView({0, 0, 0}, normal, kPatient, kRadiological);
+    EXPECT_GT(view.right.y(), 0.9) << "as a sagittal view, the back on the right";
+  }
+}
+
 TEST(ViewPlane, LettersComeFromTheDirection) {
   EXPECT_EQ(sideName({1, 0.1, 0}, kPatient), "L") << "6 degrees aren't named";
   EXPECT_EQ(sideName({-1, 0.5, 0}, kPatient), "RP");

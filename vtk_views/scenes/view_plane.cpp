@@ -105,7 +105,11 @@ ViewPlane obliqueView(const Vector3d& centre_mm, const Vector3d& normal, SceneFr
                                         : axialView(centre_mm, frame, rule);
   const Vector3d towards_viewer = n.dot(nearest.towardsViewer()) < 0 ? Vector3d(-n) : n;
   const Vector3d up = (nearest.up - nearest.up.dot(n) * n).normalized();
-  return make("oblique", centre_mm, up.cross(towards_viewer), up);
+  Vector3d right = up.cross(towards_viewer);
+  // A sagittal view has no left; one beside it that names it keeps the rule of the others.
+  const double left = rule == SideRule::kRadiological ? right.x() : -right.x();
+  if (frame != SceneFrame::kCamera && left < -kNamed) right = -right;
+  return make("oblique", centre_mm, right, up);
 }
 
 ViewPlane cameraView(const Vector3d& centre_mm, const Vector3d& towards_viewer, SceneFrame frame) {

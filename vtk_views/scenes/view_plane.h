@@ -43,8 +43,9 @@ ViewPlane axialView(const Eigen::Vector3d& centre_mm, SceneFrame frame, SideRule
 ViewPlane coronalView(const Eigen::Vector3d& centre_mm, SceneFrame frame, SideRule rule);
 ViewPlane sagittalView(const Eigen::Vector3d& centre_mm, SceneFrame frame);
 
-/// Any other plane, with side and up direction of the nearest
-/// standard view. Throws OptionError for a zero `normal`.
+/// Any other plane, with side and up direction of the nearest standard view; for a patient, from
+/// the other side where left would be named on the wrong side. Throws OptionError for a zero
+/// `normal`.
 ViewPlane obliqueView(const Eigen::Vector3d& centre_mm, const Eigen::Vector3d& normal,
                       SceneFrame frame, SideRule rule);
 
