@@ -17,7 +17,11 @@ void printFacts(const FactSheet& facts, bool as_json) {
 
 void printResult(const FactSheet::Json& record, FactSheet facts,
                  const std::vector<std::string>& written, bool as_json) {
-  if (as_json) return printJson(record);
+  if (as_json) {
+    for (const FactSheet::Json& warning : record.value("warnings", FactSheet::Json::array()))
+      spdlog::warn("{}", warning.get<std::string>());
+    return printJson(record);
+  }
   std::string label = "written to";
   for (const std::string& name : written) {
     if (name.empty()) continue;

@@ -11,7 +11,7 @@ namespace softscope {
 void printJson(const FactSheet::Json& json);
 void printFacts(const FactSheet& facts, bool as_json);
 
-/// Output of a command that measures: its record, or its
+/// Output of a command that measures: its record, with its warnings on stderr as well, or its
 /// facts and the `written` files (empty names are omitted).
 void printResult(const FactSheet::Json& record, FactSheet facts,
                  const std::vector<std::string>& written, bool as_json);

@@ -43,6 +43,15 @@ TEST_F(Compare, OptionsReachTheComparison) {
       0.75, 1e-5);
 }
 
+TEST_F(Compare, WarningsOfARecordAreOnStderrToo) {
+  write("small.obj", squareObj(0, 0.75, 0.001));
+  const Outcome outcome = compare("small.obj", {"--json", "--quiet"});
+  ASSERT_GE(outcome.json()["warnings"].size(), 1u);
+  EXPECT_THAT(outcome.err, HasSubstr("in metres? Then give 1000 as --test-unit-mm"));
+  for (const Json& warning : outcome.json()["warnings"])
+    EXPECT_THAT(outcome.err, HasSubstr(warning.get<std::string>()));
+}
+
 TEST_F(Compare, NothingIsOverwrittenWithoutForce) {
   write("out/comparison.json", "mine");
   const Outcome refused = compare("above.obj", {"--out", at("out")});

@@ -17,8 +17,8 @@ namespace {
 const PlyElement& verticesOf(const PlyHeader& header, const std::string& name) {
   if (header.encoding != PlyEncoding::kLittleEndian)
     throw InputError(name +
-                     ": a model is a binary little-endian PLY, but this is another kind; give a "
-                     "folder that softscope reconstruct wrote");
+                     ": points are read from a binary little-endian PLY, as softscope reconstruct "
+                     "writes it, but this one is of another kind and has no triangles; convert it");
   if (header.elements.empty() || header.elements[0].name != "vertex")
     throw InputError(name + ": the first element is no vertex; give a model of points");
   for (const PlyProperty& property : header.elements[0].properties)
