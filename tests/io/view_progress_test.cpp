@@ -101,6 +101,11 @@ TEST_F(ViewProgress, ARepeatedFrameIsUsed) {
   freeze("right", 3, 4, 5);
   freeze("left", 3, 4, 5);
   EXPECT_EQ(refused(folder_.path()), std::vector<int>());
+  SequenceReader reader(folder_.path());
+  std::vector<int> repeated;
+  while (const auto result = reader.next())
+    if (result->repeats) repeated.push_back(result->index);
+  EXPECT_EQ(repeated, (std::vector<int>{4, 5}));
 }
 
 TEST_F(ViewProgress, ARangeIsComparedLikeTheWholeSequence) {

@@ -100,6 +100,25 @@ TEST_F(ProcessOfASequence, UsesTheSettingsOfTheSequence) {
   EXPECT_EQ(recordWithoutTimes(at("run"))["configuration"]["sequence.right_offset"], "1");
 }
 
+TEST_F(ProcessOfASequence, TellsThatTheVideoStoodStill) {
+  makeClip(6);
+  for (const std::string view : {"clip/left/", "clip/right/"})
+    for (const int i : {3, 4})
+      fs::copy_file(at(view + numberedName(2, ".png")), at(view + numberedName(i, ".png")),
+                    fs::copy_options::overwrite_existing);
+  const std::string told = "both images of 2 of 6 frames are those of the frame before";
+  ReconstructOptions command = reconstruction(at("clip"), at("command"));
+  command.backend = "cpu";
+  EXPECT_THAT(written(reconstructSequence(command).record)["warnings"].dump(), HasSubstr(told));
+  api::Sequence sequence(at("clip"));
+  api::Reconstructor reconstructor = reconstructorOf(sequence);
+  reconstructor.recordTo(at("run"), /*save_every=*/0);
+  while (reconstructor.process(sequence)) {
+  }
+  reconstructor.finish();
+  EXPECT_THAT(recordWithoutTimes(at("run"))["warnings"].dump(), HasSubstr(told));
+}
+
 TEST_F(ProcessOfASequence, UpdatesItsFilesEveryHundredFrames) {
   makeClip(2);
   fs::remove(at("clip/timestamps.txt"));

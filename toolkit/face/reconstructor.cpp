@@ -143,6 +143,7 @@ std::optional<FrameReport> Reconstructor::process(Sequence& sequence) {
                      "; the sequence was removed, or its disk. finish() completes "
                      "the run with the frames before");
   const ViewOrigin views{source.reader.calibration(), source.paths, source.options.right_first};
+  if (current->repeats && impl_->record) impl_->record->addRepeated();
   return impl_->add(processFrame(*current, source.frames, views, impl_->loop), current->names);
 }
 

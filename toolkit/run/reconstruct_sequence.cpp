@@ -175,6 +175,7 @@ void SequenceRun::reconstructAll(const SequenceReader& reader, FrameWindow& fram
     if (!frame.reason.empty())
       rejections_.add(toString(frame.status), frame.frame,
                       say(toString(frame.status), ": ", frame.reason));
+    if (result->repeats) record.addRepeated();
     recordFrame(frame, result->names, reconstructor, folder, record);
     next_frame = frame.frame + options_.settings.sequence.frames.step;
     at_end = ++processed == frame_count;

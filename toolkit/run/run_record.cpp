@@ -170,6 +170,11 @@ std::vector<std::string> RunRecord::conclusions() const {
                   " frames were fused with models of other places, begun where the first model was "
                   "not found and not recognised as a part of it since: their poses are not "
                   "relative to the first frame (frames.csv, column map; model_mapN.ply)");
+  if (repeated_ > kWarnShare * frames_)
+    all.push_back("both images of " + std::to_string(repeated_) + " of " + std::to_string(frames_) +
+                  " frames are those of the frame before: the video stood still or repeats frames. "
+                  "What moved meanwhile is unknown, and sigma takes each for a new measurement; "
+                  "select other frames with `frames=`");
   if (located_ > 0 && scope_static_ == located_)
     all.push_back("no motion of the scope was detected; if it moved, state --scope moving");
   return all;

@@ -37,6 +37,8 @@ class RunRecord {
   /// with little evidence, a static scope. Included in json().
   std::vector<std::string> conclusions() const;
   FactSheet::Json json() const;
+  /// One more frame whose images are those of the frame before.
+  void addRepeated() { ++repeated_; }
   /// Short summary as text. `folder`: of the run; empty if nothing was written.
   FactSheet text(const std::string& folder) const;
 
@@ -55,7 +57,7 @@ class RunRecord {
   int frames_ = 0, points_ = 0, nodes_ = 0;
   int most_points_ = 0;  // of any frame: the model in use at the end may be of another place
   int located_ = 0, scope_static_ = 0, doubtful_ = 0, disagreeing_ = 0, imprecise_ = 0,
-      imprecise_tracks_ = 0, assumed_ = 0;
+      imprecise_tracks_ = 0, assumed_ = 0, repeated_ = 0;
 };
 
 }  // namespace softscope

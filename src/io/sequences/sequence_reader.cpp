@@ -99,6 +99,7 @@ class SequenceReader::Impl {
     const std::optional<EarlierPair> before = std::exchange(before_, std::nullopt);
     if (!loaded->digest) return;
     before_ = asEarlier(before, result.index, *loaded->digest);
+    result.repeats = before && repeats(before->digest, *loaded->digest);
     result.error = viewProgressFault(before, *loaded->digest, result.names);
     if (result.ok()) return;
     result.frame = {};

@@ -22,6 +22,7 @@ struct FrameResult {
   FrameNames names;        // also if the frame is unreadable
   bool unpaired = false;   // no error: the other view has no image of this time
   bool bad_views = false;  // and unpaired: a view stands still, or both are equal
+  bool repeats = false;    // both images are those of the frame before
   std::string error;       // one line; empty without an error
 
   bool ok() const { return error.empty(); }

@@ -93,6 +93,10 @@ std::string viewProgressFault(const std::optional<EarlierPair>& before, const Pa
              "again, or select other frames with `frames=`.");
 }
 
+bool repeats(const PairDigest& before, const PairDigest& now) {
+  return now.left.bytes == before.left.bytes && now.right.bytes == before.right.bytes;
+}
+
 EarlierPair asEarlier(const std::optional<EarlierPair>& before, int frame, const PairDigest& now) {
   EarlierPair earlier{frame, now};
   if (!before) return earlier;

@@ -39,6 +39,9 @@ struct EarlierPair {
 std::string viewProgressFault(const std::optional<EarlierPair>& before, const PairDigest& now,
                               const FrameNames& names);
 
+/// Whether both images are those of the earlier pair, to the byte: no camera takes two such.
+bool repeats(const PairDigest& before, const PairDigest& now);
+
 /// What the next pair is compared with. While one view stands still, slow motion of the other adds
 /// up.
 EarlierPair asEarlier(const std::optional<EarlierPair>& before, int frame, const PairDigest& now);
