@@ -174,6 +174,23 @@ TEST_F(DicomFolder, ATruncatedSliceIsAnInputError) {
 }
 
 /// Tags that a slice may not have, and what the message must name.
+TEST_F(DicomFolder, ASliceThatEndsBeforeItsPixelsIsAnErrorUnlessSlicesMayMiss) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  fs::resize_file(files[2], fs::file_size(files[2]) - 3);
+  EXPECT_THAT(errorOf({}),
+              AllOf(HasSubstr(files[2].filename().string()), HasSubstr("ends before its pixels do"),
+                    HasSubstr("`allow_missing_slices=`"), Not(HasSubstr("vtk"))));
+  VolumeOptions options;
+  options.allow_missing_slices = true;
+  const Volume volume = readVolume(folder, options);
+  int empty = 0;
+  for (int slice = 0; slice < volume.facts.size_voxels[2]; ++slice)
+    empty += std::isnan(volume.at({1, 1, double(slice)}));
+  EXPECT_LE(empty, 1);  // none where it was the first or the last
+  EXPECT_EQ(volume.facts.size_voxels[2] - empty, 5);
+}
+
 struct BadTag {
   const char* what;
   vtkDICOMTag tag;

@@ -60,8 +60,19 @@ std::vector<std::string> filesIn(const std::string& path) {
   return files;
 }
 
-/// Tags of one file without pixels. Throws InputError.
-vtkNew<vtkDICOMMetaData> tagsOf(const std::string& file) {
+/// Whether the file ends before its pixels do. Not known of compressed and deflated ones.
+bool isCutShort(const std::string& file, vtkDICOMParser& parser) {
+  constexpr unsigned int kCompressed = 0xffffffff;
+  const std::string deflated = "1.2.840.10008.1.2.1.99";
+  if (!parser.GetPixelDataFound() || parser.GetPixelDataVL() == kCompressed ||
+      text(parser.GetMetaData(), DC::TransferSyntaxUID) == deflated)
+    return false;
+  const auto end = static_cast<std::uintmax_t>(parser.GetFileOffset()) + parser.GetPixelDataVL();
+  return end > fs::file_size(file);
+}
+
+/// Tags of one file without pixels; `fault`, if given, of its pixels. Throws InputError.
+vtkNew<vtkDICOMMetaData> tagsOf(const std::string& file, std::string* fault = nullptr) {
   vtkNew<vtkDICOMMetaData> meta;
   vtkNew<vtkDICOMParser> parser;
   parser->SetMetaData(meta);
@@ -69,6 +80,8 @@ vtkNew<vtkDICOMMetaData> tagsOf(const std::string& file) {
   parser->Update();
   if (parser->GetErrorCode() != 0 || meta->GetNumberOfDataElements() == 0)
     throw InputError(file + ": is damaged: its DICOM tags can't be read. Copy it again");
+  if (fault != nullptr && isCutShort(file, *parser))
+    *fault = file + ": is cut short: it ends before its pixels do. Copy it again";
   return meta;
 }
 
@@ -233,8 +246,11 @@ StoredVolume readSeries(const std::string& path, const std::vector<std::string>&
   if (fs::is_directory(path)) addStrays(files, series, in_series, slices, volume.summary.warnings);
   bool rescaled = true;
   for (const std::string& file : series) {
-    const vtkNew<vtkDICOMMetaData> meta = tagsOf(file);
-    const auto of_file = slicesOf(file, *meta, options);
+    std::string fault;
+    const vtkNew<vtkDICOMMetaData> meta = tagsOf(file, &fault);
+    std::vector<DicomSlice> of_file = slicesOf(file, *meta, options);
+    for (DicomSlice& slice : of_file)
+      if (slice.fault.empty()) slice.fault = fault;
     slices.insert(slices.end(), of_file.begin(), of_file.end());
     rescaled = rescaled && meta->Get(0, 0, DC::RescaleIntercept).IsValid();
     if (file != series.front()) continue;
