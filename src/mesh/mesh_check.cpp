@@ -140,7 +140,8 @@ std::vector<std::string> meshWarnings(const MeshCheck& check, const std::string&
   warn(check.split_vertices > 0, check.split_vertices, " vertices where sheets touch in one point");
   warn(check.degenerate_triangles > 0, check.degenerate_triangles, " triangles without area");
   warn(check.unused_vertices > 0, check.unused_vertices, " vertices that no triangle names");
-  warn(check.volume_mm3 < 0, "the surface is inside out: signs of distances are reversed");
+  warn(check.volume_mm3 < 0,
+       "the surface is inside out: as a reference, it reverses the signs of distances");
   return lines;
 }
 

@@ -64,6 +64,15 @@ TEST_F(Comparison, AShiftedSquareIsOffByItsShift) {
   EXPECT_EQ(result["alignment"]["method"], "none");
 }
 
+TEST_F(Comparison, SaysThatTheTestGoesBeyondTheReference) {
+  write("aside.obj", squareObj(10, 0.75));
+  const std::string told = "57 % of the test's vertices lie at or beyond the border";
+  EXPECT_THAT(compared("aside.obj")["warnings"].dump(), HasSubstr(told));
+  CompareOptions observed = options("aside.obj");
+  observed.observed = observed.reference;
+  EXPECT_THAT(compared(observed)["warnings"].dump(), testing::Not(HasSubstr("beyond")));
+}
+
 TEST_F(Comparison, PointsAreComparedToo) {
   PointCloud cloud;
   for (int i = 2; i < 18; ++i) cloud.points_mm.emplace_back(float(i), 10.0f, -0.5f);

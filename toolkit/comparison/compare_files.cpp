@@ -32,6 +32,19 @@ ObservedSplit split(const CompareOptions& options, const FileComparison& compare
                          options.observed_reach_mm);
 }
 
+/// Of a part of a surface, the test may be another part.
+void warnOfBorder(const std::string& reference, ComparisonResult* result) {
+  constexpr double kFew = 0.05;  // as on the rim of two equal parts
+  const Statistics& of_sign = result->comparison.signed_mm;
+  const double share = static_cast<double>(of_sign.nan_count) /
+                       static_cast<double>(of_sign.nan_count + of_sign.count);
+  if (share > kFew)
+    result->warnings.push_back(
+        say(std::lround(100 * share), " % of the test's vertices lie at or beyond the border of ",
+            "the reference, and count with their distance from it; --observed ", reference,
+            " tells the values of the others"));
+}
+
 /// Every metric that these options give, without its value.
 ComparisonResult unmeasured(const CompareOptions& options) {
   ComparisonResult result;
@@ -97,6 +110,7 @@ FileComparison compareFiles(const CompareOptions& options) {
   compared.test.vertices_mm = movePoints(result.fit.reference_from_test, compared.test.vertices_mm);
   for (const std::string& warning : result.fit.warnings) result.warnings.push_back(warning);
   result.comparison = compareSurfaces(compared.reference, compared.test, options.taus_mm);
+  if (options.observed.empty()) warnOfBorder(options.reference, &result);
   if (!options.observed.empty()) {
     result.observed = split(options, compared);
     if (result.observed->reference_share == 0)
