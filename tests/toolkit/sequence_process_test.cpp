@@ -80,6 +80,8 @@ TEST_F(ProcessOfASequence, WritesTheBytesOfTheCommand) {
     EXPECT_TRUE(files.at(name) == bytes) << name;
   }
   EXPECT_EQ(recordWithoutTimes(at("run")), recordWithoutTimes(at("command")));
+  EXPECT_THAT(textOf(at("run/frames.csv")),
+              testing::AllOf(HasSubstr("\"000003.png: "), testing::Not(HasSubstr("/000003.png"))));
 }
 
 TEST_F(ProcessOfASequence, UsesTheSettingsOfTheSequence) {

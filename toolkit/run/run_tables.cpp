@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "core/decimal_number.h"
 #include "core/error.h"
 #include "io/text/text_lines.h"
+#include "toolkit/record/path_words.h"
 
 namespace softscope {
 namespace {
@@ -49,6 +51,12 @@ std::string quoted(const std::string& text) {
     out += c == '\n' || c == '\r' ? ' ' : c;
   }
   return out + '"';
+}
+
+/// With names of files, as in all records.
+std::string recordedReason(const std::string& reason) {
+  if (reason.empty()) return reason;
+  return withoutFolders(reason, std::filesystem::current_path().string());
 }
 
 std::vector<std::string> cellsOfLine(std::string_view line) {
@@ -175,7 +183,7 @@ std::string framesCsvLine(const FrameRecord& record) {
   line.add(record.map);
   for (const std::string& stage : timedStages()) line.add(timeOf(record, stage), 2);
   line.add(record.elapsed_ms(), 2);
-  line.addText(quoted(record.reason));
+  line.addText(quoted(recordedReason(record.reason)));
   return line.ended();
 }
 
