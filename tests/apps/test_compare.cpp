@@ -46,9 +46,10 @@ TEST_F(Compare, OptionsReachTheComparison) {
 TEST_F(Compare, WarningsOfARecordAreOnStderrToo) {
   write("small.obj", squareObj(0, 0.75, 0.001));
   const Outcome outcome = compare("small.obj", {"--json", "--quiet"});
-  ASSERT_GE(outcome.json()["warnings"].size(), 1u);
+  const Json warnings = outcome.json()["warnings"];
+  ASSERT_GE(warnings.size(), 1u);
   EXPECT_THAT(outcome.err, HasSubstr("in metres? Then give 1000 as --test-unit-mm"));
-  for (const Json& warning : outcome.json()["warnings"])
+  for (const Json& warning : warnings)
     EXPECT_THAT(outcome.err, HasSubstr(warning.get<std::string>()));
 }
 
