@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -55,7 +56,7 @@ TEST(WriteBehind, LetsTheCallerGoOnUntilMuchIsPending) {
   writer.finish();
 }
 
-TEST(WriteBehind, TellsTheFirstErrorOnceAndGoesOn) {
+TEST(WriteBehind, DoesNothingMoreAfterAnError) {
   WriteBehind writer;
   bool followed = false;
   writer.add([] {
@@ -64,14 +65,32 @@ TEST(WriteBehind, TellsTheFirstErrorOnceAndGoesOn) {
   });
   writer.add([] { throw std::runtime_error("second"); });
   writer.add([&] { followed = true; });
-  try {
-    writer.finish();
-    FAIL() << "no error";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "disk full");
+  for (int time = 0; time < 2; ++time) {
+    try {
+      writer.finish();
+      FAIL() << "no error";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "disk full");
+    }
   }
-  EXPECT_TRUE(followed);
-  EXPECT_NO_THROW(writer.finish());
+  const auto addSome = [&] {
+    for (std::size_t i = 0; i <= WriteBehind::kMostPending; ++i)
+      writer.add([&] { followed = true; });
+  };
+  EXPECT_THROW(addSome(), std::runtime_error);
+  EXPECT_FALSE(followed);
+}
+
+TEST(WriteBehind, KeepsNothingOfTheWorkThatIsDone) {
+  WriteBehind writer;
+  std::vector<std::weak_ptr<int>> held;
+  for (int i = 0; i < 20; ++i) {
+    auto cloud = std::make_shared<int>(i);
+    held.push_back(cloud);
+    writer.add([cloud = std::move(cloud)] {});
+  }
+  writer.finish();
+  for (const std::weak_ptr<int>& cloud : held) EXPECT_TRUE(cloud.expired());
 }
 
 TEST(WriteBehind, EndsItsWorkWhenItGoes) {
@@ -105,7 +124,11 @@ TEST(WriteBehind, ARunFolderNamesAModelThatCouldNotBeWritten) {
   run.add(frame);
   fs::create_directories(options.folder);
   std::ofstream(options.folder / "nodes") << "a file";
-  run.saveModel(0, 0, ModelState());
+  const ModelState model;
+  const ScopeState scope;
+  const std::vector<Submap> others;
+  run.saveModel(0, 0, model);
+  run.flush({"settings", 1, {model, scope, others, 1}});
   try {
     run.writeRecord(FactSheet::Json::object(), /*complete=*/true);
     FAIL() << "no error";
@@ -113,6 +136,7 @@ TEST(WriteBehind, ARunFolderNamesAModelThatCouldNotBeWritten) {
     EXPECT_THAT(error.what(), testing::HasSubstr((options.folder / "nodes").string()));
   }
   EXPECT_FALSE(fs::exists(options.folder / "run.json"));
+  EXPECT_FALSE(fs::exists(options.folder / "checkpoint.bin")) << "the frame is to be done again";
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "toolkit/run/write_behind.h"
 
-#include <exception>
 #include <utility>
 
 #include "core/background_work.h"
@@ -12,25 +11,22 @@ void WriteBehind::add(std::function<void()> work) {
   if (threadCount() == 1) return work();
   std::shared_future<void> before;
   if (!pending_.empty()) before = pending_.back();
-  pending_.push_back(std::async(std::launch::async, [before, work = std::move(work)] {
-                       if (before.valid()) before.wait();
-                       runInBackground(work);
-                     }).share());
-  waitUntil(kMostPending);
+  // Its end frees what the work holds, and with `before` the work before it.
+  auto next = [before, work = std::move(work)]() mutable {
+    const auto earlier = std::move(before);
+    const auto own = std::move(work);
+    if (earlier.valid()) earlier.get();
+    runInBackground(own);
+  };
+  pending_.push_back(std::async(std::launch::async, std::move(next)).share());
+  while (pending_.size() > kMostPending) {
+    pending_.front().get();
+    pending_.pop_front();
+  }
 }
 
-void WriteBehind::finish() { waitUntil(0); }
-
-void WriteBehind::waitUntil(std::size_t left) {
-  std::exception_ptr failure;
-  for (; pending_.size() > left; pending_.pop_front()) {
-    try {
-      pending_.front().get();
-    } catch (...) {
-      if (!failure) failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+void WriteBehind::finish() {
+  if (!pending_.empty()) pending_.back().get();
 }
 
 }  // namespace softscope

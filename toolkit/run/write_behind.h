@@ -14,16 +14,14 @@ class WriteBehind {
   /// Works that may wait or be in progress, so that their memory is limited.
   static constexpr std::size_t kMostPending = 3;
 
-  /// Returns once not more than that is pending. Throws the first error of the work that ended
-  /// since; later work is done all the same.
+  /// Returns once not more than that is pending. Throws the error of earlier work, after which
+  /// nothing more is done: a checkpoint never follows a file that could not be written.
   void add(std::function<void()> work);
   /// Waits for all work. Throws as add() does.
   void finish();
 
  private:
-  void waitUntil(std::size_t left);
-
-  std::deque<std::shared_future<void>> pending_;
+  std::deque<std::shared_future<void>> pending_;  // and the last, once it has ended
 };
 
 }  // namespace softscope
