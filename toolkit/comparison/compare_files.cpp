@@ -110,8 +110,9 @@ FileComparison compareFiles(const CompareOptions& options) {
   compared.test.vertices_mm = movePoints(result.fit.reference_from_test, compared.test.vertices_mm);
   for (const std::string& warning : result.fit.warnings) result.warnings.push_back(warning);
   result.comparison = compareSurfaces(compared.reference, compared.test, options.taus_mm);
-  if (options.observed.empty()) warnOfBorder(options.reference, &result);
-  if (!options.observed.empty()) {
+  if (options.observed.empty()) {
+    warnOfBorder(options.reference, &result);
+  } else {
     result.observed = split(options, compared);
     if (result.observed->reference_share == 0)
       result.warnings.push_back(say(options.observed, ": nothing of the reference is within ",
