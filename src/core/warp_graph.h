@@ -53,6 +53,7 @@ struct WarpGraph {
   std::vector<Eigen::Matrix3d> turned;         // rotation since creation, world from node
   std::vector<GraphEdge> edges;                // ascending by (first, second)
   std::vector<NodeStencil> stencils;           // indexed by PointBinding::stencil
+  std::vector<NodeStencil> inactive_stencils;  // of inactive points: they have edges, no energy
   /// 1: so far from visible tissue that the node follows others (deform/solver/local_solver.h).
   /// Nodes beyond its end: 0.
   std::vector<std::uint8_t> afar;

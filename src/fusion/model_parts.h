@@ -9,6 +9,7 @@ constexpr ModelParts kModelShape = 1;     // positions and normals
 constexpr ModelParts kModelLooks = 2;     // colours, anchors, weights
 constexpr ModelParts kModelBindings = 4;  // to nodes of the graph
 constexpr ModelParts kModelMemory = 8;    // InsertionMemory
-constexpr ModelParts kWholeModel = kModelShape | kModelLooks | kModelBindings | kModelMemory;
+constexpr ModelParts kModelPoints = kModelShape | kModelLooks | kModelBindings;
+constexpr ModelParts kWholeModel = kModelPoints | kModelMemory;
 
 }  // namespace softscope

@@ -9,7 +9,7 @@
 namespace softscope {
 namespace {
 
-constexpr std::string_view kMagic = "softscope checkpoint 13\n";
+constexpr std::string_view kMagic = "softscope checkpoint 14\n";
 
 /// FNV-1a, 64 bits, over 8 bytes at a time.
 std::uint64_t checksumOf(std::string_view bytes) {
@@ -122,6 +122,7 @@ void visitGraph(Archive& archive, Graph& graph) {
   archive.array(graph.turned);
   archive.array(graph.edges);
   archive.array(graph.stencils);
+  archive.array(graph.inactive_stencils);
   archive.array(graph.afar);
 }
 
@@ -172,6 +173,9 @@ template <class Archive, class State>
 void visitState(Archive& archive, State& state) {
   visitModel(archive, state.model);
   visitGraph(archive, state.graph);
+  visitModel(archive, state.inactive.points);
+  archive.array(state.inactive.nodes_mm);
+  archive.array(state.inactive.turned);
   visitMemory(archive, state.memory);
   archive.array(state.tracked.points);
   archive.value(state.tracked.fused_frames);

@@ -15,16 +15,15 @@
 #include "pipeline/frame/frame_ahead.h"
 #include "pipeline/frame/key_point_matches.h"
 #include "pipeline/frame/match_ahead.h"
-#include "pipeline/frame/pose_pairs.h"
+#include "pipeline/frame/pose_stage.h"
 #include "pipeline/frame/relocaliser.h"
 #include "pipeline/frame/tissue_colour.h"
 #include "pipeline/model/accepted_warp.h"
+#include "pipeline/model/active_region.h"
 #include "pipeline/model/graph_ahead.h"
 #include "pipeline/model/united_models.h"
 #include "pipeline/tracks/track_pictures.h"
 #include "pipeline/tracks/track_sight.h"
-#include "pose/ransac_pose.h"
-#include "pose/refine_pose.h"
 
 namespace softscope {
 namespace {
@@ -41,7 +40,7 @@ class CpuBackend : public ReconstructionBackend {
                 parts.makeSurvey, parts.ahead),
         thread_limit_(parts.thread_limit),
         matching_(parts.makeMatching(options, rig())),
-        pose_search_(parts.makePoseSearch()),
+        pose_(rig(), options.refine_pose, parts.makePoseSearch()),
         solver_(makeLocalSolver(parts.makeSolver(options.deform), options.graph.node_spacing_mm)),
         comparer_(parts.makeComparer(rig())),
         updater_(parts.makeUpdater(rig())),
@@ -55,6 +54,9 @@ class CpuBackend : public ReconstructionBackend {
   std::string device() const override { return device_; }
   const RectifiedRig& rig() const override { return frames_.depth().rig(); }
   bool empty() const override { return state_.model.empty(); }
+  void activateAll() override {
+    if (!state_.inactive.points.empty()) changePoints([&] { softscope::activateAll(&state_); });
+  }
   const ModelState& state() const override {
     updater_->fetch(&state_.memory);
     return state_;
@@ -95,12 +97,7 @@ class CpuBackend : public ReconstructionBackend {
     return observationOf(frame_, left(), world_from_left);
   }
   GrayImage seenFrom(const Eigen::Isometry3d& world_from_left) const;
-  MatchSummary match(const Eigen::Isometry3d& viewed_from);
-  PoseSummary estimatePose(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
-                           ScopeBefore before);
   void grow();
-  void refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference, ScopeBefore before,
-              PoseSummary* summary);
   bool tracks() const { return !state_.tracked.points.empty(); }
   void seedTracks(const Eigen::Isometry3d& world_from_left);
   void alignTracks(const Eigen::Isometry3d& world_from_left);
@@ -117,7 +114,7 @@ class CpuBackend : public ReconstructionBackend {
   FrameAhead frames_;
   std::shared_ptr<ThreadLimit> thread_limit_;
   MatchAhead matching_;
-  std::unique_ptr<PoseSearch> pose_search_;
+  PoseStage pose_;
   std::unique_ptr<DeformSolver> solver_;
 
   mutable ModelState state_;      // its memory may lie on a device until state() is called
@@ -129,12 +126,23 @@ class CpuBackend : public ReconstructionBackend {
   void orRejectWarp(const Work& work);
   template <class Work>
   void replaceState(const Work& work) {
-    growth_.drop();
-    matching_.drop();
-    work();
+    changePoints(work);
     updater_->changed(kWholeModel);
     looks_->changed();
   }
+  /// What was begun ahead is dropped.
+  template <class Work>
+  void changePoints(const Work& work) {
+    growth_.drop();
+    matching_.drop();
+    work();
+    updater_->changed(kModelPoints);
+  }
+  ActiveRegion regionOf(const Eigen::Isometry3d& world_from_left) const {
+    return {left(), world_from_left, options_.graph.node_spacing_mm};
+  }
+  void beginNext(const Eigen::Isometry3d& world_from_left);
+  void deactivateBeyond(const Eigen::Isometry3d& world_from_left);
 
   // Of the frame at hand.
   FrameView frame_;
@@ -144,7 +152,6 @@ class CpuBackend : public ReconstructionBackend {
   std::unique_ptr<LookStage> looks_;
   AcceptedWarp warp_;
   std::vector<LiftedMatch> matches_;
-  RigidPose pose_;
   std::optional<ModelComparison> comparison_;  // with the warped model
   FusionSummary fused_;
   StageClock clock_;
@@ -157,7 +164,7 @@ DepthSummary CpuBackend::measure(const Frame& frame) {
   clock_ = StageClock();
   matches_.clear();
   comparison_.reset();
-  pose_ = RigidPose();
+  pose_.forget();
   frame_ = frames_.measure(frame, &clock_);
   if (tracks() && worksAhead()) pictures_.prepare(looks_->takesPictures());
   return frame_.summary;
@@ -174,7 +181,15 @@ GrayImage CpuBackend::seenFrom(const Eigen::Isometry3d& world_from_left) const {
 LocateSummary CpuBackend::locate(const Eigen::Isometry3d& viewed_from,
                                  const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
                                  ScopeBefore before) {
-  return {match(viewed_from), estimatePose(last, reference, before)};  // in this order
+  ModelMatches found =
+      matching_.match(state_.model, viewed_from, seenFrom(viewed_from), frame_, &clock_);
+  matches_ = std::move(found.lifted);
+  LocateSummary summary;
+  summary.matches = {static_cast<int>(found.pixels.size()), static_cast<int>(matches_.size())};
+  summary.pose =
+      pose_.estimate(matches_, frame_.pose, state_.model, state_.graph, {last, reference, before});
+  clock_.lap("pose");
+  return summary;
 }
 
 RigidPose CpuBackend::relocalise(const PointModel& model,
@@ -185,44 +200,13 @@ RigidPose CpuBackend::relocalise(const PointModel& model,
   return pose;
 }
 
-MatchSummary CpuBackend::match(const Eigen::Isometry3d& viewed_from) {
-  ModelMatches found =
-      matching_.match(state_.model, viewed_from, seenFrom(viewed_from), frame_, &clock_);
-  matches_ = std::move(found.lifted);
-  return {static_cast<int>(found.pixels.size()), static_cast<int>(matches_.size())};
-}
-
-PoseSummary CpuBackend::estimatePose(const Eigen::Isometry3d& last,
-                                     const Eigen::Isometry3d& reference, ScopeBefore before) {
-  pose_ = estimateRigidPose(posePairs(matches_), frame_.pose);
-  PoseSummary summary;
-  summary.found = pose_.found;
-  summary.failure = pose_.failure;
-  if (pose_.found) refine(last, reference, before, &summary);
-  clock_.lap("pose");
-  return summary;
-}
-
-void CpuBackend::refine(const Eigen::Isometry3d& last, const Eigen::Isometry3d& reference,
-                        ScopeBefore before, PoseSummary* summary) {
-  summary->world_from_left = pose_.target_from_source;
-  summary->inliers = pose_.inliers;
-  summary->rms_mm = pose_.rms_mm;
-  if (options_.refine_pose.iterations == 0) return;
-  const RefinedPose best = refinePose(
-      refinementPairs(matches_, pose_, state_.model, state_.graph, rig()), rig(),
-      pose_.target_from_source, last, reference, before, options_.refine_pose, pose_search_.get());
-  summary->world_from_left = best.world_from_left;
-  summary->scope_static = best.scope_static;
-  summary->keeps_shape = best.keeps_shape;
-  summary->moved_mm = best.moved_mm;
-  summary->sigma_mm = best.sigma_mm;
-  summary->sigma_deg = best.sigma_deg;
-}
-
 WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left, ScopeBefore before) {
   is_grown_ = false;
   if (!growth_.canWait(state_.model)) grow();
+  if (const ActiveRegion region = regionOf(world_from_left); region.reachesInactive(state_)) {
+    if (!is_grown_) grow();
+    changePoints([&] { region.activate(&state_); });
+  }
   clock_.lap("graph");
   std::vector<std::int32_t> visible;
   DeformObservation seen;
@@ -234,7 +218,8 @@ WarpSummary CpuBackend::findWarp(const Eigen::Isometry3d& world_from_left, Scope
       },
       [&] {
         if (options_.deform.correspondence_weight > 0)
-          seen.matches = keyPointMatches(matches_, pose_, frame_.association, world_from_left);
+          seen.matches =
+              keyPointMatches(matches_, pose_.rigid(), frame_.association, world_from_left);
       });
   seen.visible = &visible;
   const DepthTarget surface(frame.depth, frame.normals, left(), world_from_left.inverse(),
@@ -318,9 +303,7 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   const auto updateModel = [&] {
     update = updater_->update(observation, frame_.states, state_.graph, frame_.fusion, *comparison_,
                               &state_.memory, &state_.model);
-    if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
-    const FrameView* next = options_.match_last_picture ? nullptr : frames_.next();
-    if (next != nullptr) matching_.begin(state_.model, world_from_left, *next);
+    beginNext(world_from_left);
   };
   LastingErrors errors = state_.errors;
   // Neither needs the other.
@@ -339,12 +322,29 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};
   clock_.lap("fuse");
   settleTracks(update.index_map, first, world_from_left);
-  fused_.points = static_cast<int>(state_.model.size());
+  deactivateBeyond(world_from_left);
+  fused_.points = static_cast<int>(state_.model.size() + state_.inactive.points.size());
   fused_.seen = update.seen;
   fused_.fused = update.points.fused;
   fused_.contradicted = update.points.contradicted;
   fused_.inserted = update.insertion.inserted;
   clock_.lap("check");
+}
+
+/// Growth of the graph and matches of the next frame, where they can run already.
+void CpuBackend::beginNext(const Eigen::Isometry3d& world_from_left) {
+  if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
+  const FrameView* next = options_.match_last_picture ? nullptr : frames_.next();
+  if (next != nullptr) matching_.begin(state_.model, world_from_left, *next);
+}
+
+void CpuBackend::deactivateBeyond(const Eigen::Isometry3d& world_from_left) {
+  const ActiveRegion region = regionOf(world_from_left);
+  if (options_.deform.node_model != NodeModel::kRigid || !region.leavesMuch(state_)) return;
+  IndexMap kept;
+  changePoints([&] { kept = region.deactivate(&state_); });
+  state_.tracked.renumber(kept, state_.model, options_.graph.node_spacing_mm, surface_.get());
+  beginNext(world_from_left);
 }
 
 /// On the surface of the updated model.

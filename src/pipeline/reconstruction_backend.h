@@ -13,6 +13,7 @@
 #include "fusion/back_projection_error.h"
 #include "fusion/view_evidence.h"
 #include "pipeline/frame/depth_summary.h"
+#include "pipeline/frame/pose_summary.h"
 #include "pipeline/model/model_state.h"
 #include "pose/ransac_pose.h"
 #include "pose/refine_pose.h"
@@ -23,19 +24,6 @@ namespace softscope {
 struct MatchSummary {
   int matches = 0;  // pixels of the model view found again
   int lifted = 0;   // of those, with depth on both sides
-};
-
-struct PoseSummary {
-  bool found = false;
-  std::string failure;  // why not; empty where found
-  Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
-  int inliers = 0;
-  double rms_mm = kUnknown;
-  bool scope_static = false;    // no significant motion since the reference pose
-  bool keeps_shape = true;      // the tissue still has its reference shape, as far as is known
-  double moved_mm = kUnknown;   // measured motion since the reference pose
-  double sigma_mm = kUnknown;   // predicted standard error of the position …
-  double sigma_deg = kUnknown;  // … and of the orientation
 };
 
 /// Stages 2 to 4 of one frame.
@@ -110,6 +98,8 @@ class ReconstructionBackend {
   virtual FrameOutcome finish(const Eigen::Isometry3d& world_from_left) = 0;
 
   virtual bool empty() const = 0;
+  /// All points of the model take part again, for views from anywhere.
+  virtual void activateAll() = 0;
   /// Follows these tissue points; they lie in the first frame that is fused.
   virtual void track(const std::vector<TrackSeed>& seeds) = 0;
   /// Valid until the next call that changes the model.

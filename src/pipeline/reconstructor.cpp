@@ -198,6 +198,7 @@ ScopeBefore Reconstructor::scopeBefore() const {
 // After a loss, the model is searched in the whole image, then
 // again from the pose found, for matches that the warp can use.
 bool Reconstructor::relocalise(FrameRecord& record) {
+  backend_->activateAll();
   const RigidPose rough = backend_->relocalise(
       backend_->state().model, scope_.viewpointsToTry(ScopeState::kViewpointsPerFrame));
   ++scope_.searches;
@@ -256,6 +257,7 @@ void Reconstructor::fuse(FrameStatus status, FrameRecord& record) {
 /// where the scope was lost.
 void Reconstructor::begin(FrameRecord& record) {
   if (!backend_->empty()) {
+    backend_->activateAll();
     others_.add({backend_->state(), scope_});
     backend_->restore(ModelState());
   }
@@ -321,6 +323,7 @@ void Reconstructor::join(FrameRecord& record) {
 
 /// Takes up another map; `other` is what was in use then.
 void Reconstructor::exchange(Submap* other) {
+  backend_->activateAll();
   ModelState model = backend_->state();
   backend_->restore(std::exchange(other->model, {}));
   other->model = std::move(model);

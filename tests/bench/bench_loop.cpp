@@ -186,8 +186,10 @@ double time(const Clip& clip, const std::string& backend, std::size_t hidden, in
   const ModelState& state = reconstructor.model();
   const auto afar = std::count(state.graph.afar.begin(), state.graph.afar.end(), 1);
   const ReconstructionBackend& on = reconstructor.backend();
-  std::printf("%s, %s: %zu points, %zu nodes, %td of them far from what is seen\n",
-              on.name().c_str(), on.device().c_str(), state.model.size(), state.graph.size(), afar);
+  const std::size_t inactive = state.inactive.points.size();
+  std::printf("%s, %s: %zu points (%zu inactive), %zu nodes, %td of them far from what is seen\n",
+              on.name().c_str(), on.device().c_str(), state.model.size() + inactive, inactive,
+              state.graph.size(), afar);
   print("frame", whole_ms);
   for (const std::string& name : order) print(name.c_str(), laps[name]);
   return atShare(whole_ms, 0.5);

@@ -65,6 +65,25 @@ const ShortClip& clipWithAWithdrawal() {
   return clip;
 }
 
+const ShortClip& clipWithASweep() {
+  SimulationOptions options;
+  options.scope.focal_px = 630;
+  options.organ.length_mm = 140;
+  options.camera.distance_mm = 60;
+  options.camera.amplitude_mm = 44;
+  options.camera.period_s = 2.4;
+  static const ShortClip clip = [&] {
+    ShortClip made = makeClip(options, 23);
+    for (std::size_t back = 1; back < 23; back += 2) {
+      made.frames.push_back(made.frames[22 - back]);
+      made.frames.back().index = static_cast<int>(made.frames.size()) - 1;
+      made.truth.push_back(made.truth[22 - back]);
+    }
+    return made;
+  }();
+  return clip;
+}
+
 ReconstructionOptions smallOptions() {
   ReconstructionOptions options;
   options.depth.stereo.disparity_max_px = 63;

@@ -27,6 +27,10 @@ const ShortClip& shortClip();
 /// comes back 12 mm aside, turned by 40 degrees. Made once a program.
 const ShortClip& clipWithAWithdrawal();
 
+/// A narrow view that moves aside by more than its width over a long organ, and back, twice as
+/// fast. Made once a program.
+const ShortClip& clipWithASweep();
+
 /// Options for a clip of this size: fewer disparities, smaller search.
 ReconstructionOptions smallOptions();
 

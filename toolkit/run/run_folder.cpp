@@ -15,6 +15,7 @@
 #include "io/geometry/trajectory_file.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
+#include "pipeline/model/active_region.h"
 #include "pipeline/model/model_sigma.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/run/out_folder.h"
@@ -115,6 +116,11 @@ std::string today() {
 }  // namespace
 
 PointCloud cloudOf(const ModelState& state) {
+  if (!state.inactive.points.empty()) {
+    ModelState whole = state;
+    activateAll(&whole);
+    return cloudOf(whole);
+  }
   const PointModel& model = state.model;
   PointCloud cloud{model.positions_mm, model.normals, model.colours, model.weights,
                    modelSigmas(model, state.graph, state.errors)};

@@ -20,11 +20,15 @@ constexpr int kBridges = 3;  // three neighbours hold a part's rotation too
 NodePairs sharedStencils(const WarpGraph& graph) {
   const std::size_t nodes = graph.size();
   std::vector<std::size_t> start(nodes + 1, 0);
-  visitNodePairs(graph.stencils, [&](std::int32_t a, std::int32_t) { ++start[a + 1]; });
+  const auto visitPairs = [&](const auto& visit) {
+    visitNodePairs(graph.stencils, visit);
+    visitNodePairs(graph.inactive_stencils, visit);
+  };
+  visitPairs([&](std::int32_t a, std::int32_t) { ++start[a + 1]; });
   std::partial_sum(start.begin(), start.end(), start.begin());
   std::vector<std::int32_t> seconds(start.back());
   std::vector<std::size_t> end(start.begin(), start.end() - 1);
-  visitNodePairs(graph.stencils, [&](std::int32_t a, std::int32_t b) { seconds[end[a]++] = b; });
+  visitPairs([&](std::int32_t a, std::int32_t b) { seconds[end[a]++] = b; });
 
   NodePairs pairs;
   std::vector<std::int32_t> partners, last_first(nodes, -1);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/parallel.h"
+
 namespace softscope {
 namespace {
 
@@ -15,15 +17,19 @@ std::pair<std::int32_t, std::int32_t> nodesOf(const GraphEdge& edge) {
 }  // namespace
 
 void updateShapeMemory(WarpGraph* graph) {
-  for (GraphEdge& edge : graph->edges) {
-    const Eigen::Vector3d offset =
-        graph->positions_mm[edge.second] - graph->positions_mm[edge.first];
-    edge.frames = std::min(edge.frames + 1, kMemoryFrames);
-    edge.from_first_mm +=
-        (graph->turned[edge.first].transpose() * offset - edge.from_first_mm) / edge.frames;
-    edge.from_second_mm +=
-        (graph->turned[edge.second].transpose() * -offset - edge.from_second_mm) / edge.frames;
-  }
+  constexpr int kEdgesPerTask = 4096;
+  parallelRanges(static_cast<int>(graph->edges.size()), kEdgesPerTask, [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) {
+      GraphEdge& edge = graph->edges[static_cast<std::size_t>(e)];
+      const Eigen::Vector3d offset =
+          graph->positions_mm[edge.second] - graph->positions_mm[edge.first];
+      edge.frames = std::min(edge.frames + 1, kMemoryFrames);
+      edge.from_first_mm +=
+          (graph->turned[edge.first].transpose() * offset - edge.from_first_mm) / edge.frames;
+      edge.from_second_mm +=
+          (graph->turned[edge.second].transpose() * -offset - edge.from_second_mm) / edge.frames;
+    }
+  });
 }
 
 void copyShapeMemory(const std::vector<GraphEdge>& from, std::vector<GraphEdge>* to) {

@@ -73,15 +73,18 @@ Eigen::Vector3d warpPoint(const WarpGraph& graph, const PointBinding& binding,
 void rebase(WarpGraph* graph) {
   graph->since_reference.resize(graph->size());
   graph->turned.resize(graph->size(), Eigen::Matrix3d::Identity());
-  for (std::size_t j = 0; j < graph->size(); ++j) {
-    const NodeTransform& warp = graph->transforms[j];
-    NodeTransform& motion = graph->since_reference[j];
-    graph->positions_mm[j] += warp.translation_mm;
-    motion.translation_mm += warp.translation_mm;
-    motion.linear = turnedBy(warp.linear, motion.linear);
-    graph->turned[j] = turnedBy(warp.linear, graph->turned[j]);
-    graph->transforms[j] = NodeTransform();
-  }
+  constexpr int kNodesPerTask = 512;
+  parallelRanges(static_cast<int>(graph->size()), kNodesPerTask, [&](int begin, int end) {
+    for (std::size_t j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end); ++j) {
+      const NodeTransform& warp = graph->transforms[j];
+      NodeTransform& motion = graph->since_reference[j];
+      graph->positions_mm[j] += warp.translation_mm;
+      motion.translation_mm += warp.translation_mm;
+      motion.linear = turnedBy(warp.linear, motion.linear);
+      graph->turned[j] = turnedBy(warp.linear, graph->turned[j]);
+      graph->transforms[j] = NodeTransform();
+    }
+  });
   updateShapeMemory(graph);
 }
 

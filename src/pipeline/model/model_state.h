@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <vector>
 
 #include "core/image.h"
 #include "core/point_model.h"
@@ -19,10 +20,18 @@ struct LastPicture {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
 };
 
+/// Points far from the view that take no part in the frames: pipeline/model/active_region.h.
+struct InactivePoints {
+  PointModel points;  // as they were then; bindings: into WarpGraph::inactive_stencils
+  std::vector<Eigen::Vector3d> nodes_mm;  // then: positions_mm and turned of the graph
+  std::vector<Eigen::Matrix3d> turned;
+};
+
 /// What must outlive the program for a run to go on as if it had never stopped.
 struct ModelState {
   PointModel model;
   WarpGraph graph;
+  InactivePoints inactive;
   InsertionMemory memory;
   MaterialPoints tracked;
   LastingErrors errors;
