@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/hd.h"
@@ -30,8 +31,11 @@ struct GraphEdge {
   std::int32_t first = 0;
   std::int32_t second = 0;
   double weight = 1;  // alpha of docs/energy.md (6)
-  // Offset of the other node, mm, in the frame of the first and of
-  // the second node: mean over the last frames, docs/energy.md (6b).
+};
+
+/// Offset of the other node of an edge, mm, in the frame of the first and of
+/// the second node: mean over the last frames, docs/energy.md (6b).
+struct EdgeShape {
   Eigen::Vector3d from_first_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d from_second_mm = Eigen::Vector3d::Zero();
   double frames = 0;  // number of frames in the mean; 0: new edge
@@ -52,8 +56,10 @@ struct WarpGraph {
   std::vector<NodeTransform> since_reference;  // motion since the reference shape, world
   std::vector<Eigen::Matrix3d> turned;         // rotation since creation, world from node
   std::vector<GraphEdge> edges;                // ascending by (first, second)
+  std::vector<EdgeShape> edge_shapes;          // one per edge; those beyond its end are new
   std::vector<NodeStencil> stencils;           // indexed by PointBinding::stencil
-  std::vector<NodeStencil> inactive_stencils;  // of inactive points: they have edges, no energy
+  /// Nodes that share inactive points (pipeline/model/active_region.h): each pair once, ascending.
+  std::vector<std::pair<std::int32_t, std::int32_t>> inactive_pairs;
   /// 1: so far from visible tissue that the node follows others (deform/solver/local_solver.h).
   /// Nodes beyond its end: 0.
   std::vector<std::uint8_t> afar;

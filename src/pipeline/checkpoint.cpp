@@ -121,8 +121,9 @@ void visitGraph(Archive& archive, Graph& graph) {
   archive.array(graph.since_reference);
   archive.array(graph.turned);
   archive.array(graph.edges);
+  archive.array(graph.edge_shapes);
   archive.array(graph.stencils);
-  archive.array(graph.inactive_stencils);
+  archive.array(graph.inactive_pairs);
   archive.array(graph.afar);
 }
 
@@ -173,9 +174,14 @@ template <class Archive, class State>
 void visitState(Archive& archive, State& state) {
   visitModel(archive, state.model);
   visitGraph(archive, state.graph);
-  visitModel(archive, state.inactive.points);
-  archive.array(state.inactive.nodes_mm);
-  archive.array(state.inactive.turned);
+  archive.list(state.inactive, [&archive](auto& inactive) {
+    visitModel(archive, inactive.points);
+    archive.array(inactive.stencils);
+    archive.array(inactive.nodes);
+    archive.array(inactive.pairs);
+    archive.array(inactive.nodes_mm);
+    archive.array(inactive.turned);
+  });
   visitMemory(archive, state.memory);
   archive.array(state.tracked.points);
   archive.value(state.tracked.fused_frames);

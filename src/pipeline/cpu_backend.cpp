@@ -55,7 +55,7 @@ class CpuBackend : public ReconstructionBackend {
   const RectifiedRig& rig() const override { return frames_.depth().rig(); }
   bool empty() const override { return state_.model.empty(); }
   void activateAll() override {
-    if (!state_.inactive.points.empty()) changePoints([&] { softscope::activateAll(&state_); });
+    if (!state_.inactive.empty()) changePoints([&] { softscope::activateAll(&state_); });
   }
   const ModelState& state() const override {
     updater_->fetch(&state_.memory);
@@ -142,7 +142,6 @@ class CpuBackend : public ReconstructionBackend {
     return {left(), world_from_left, options_.graph.node_spacing_mm};
   }
   void beginNext(const Eigen::Isometry3d& world_from_left);
-  void deactivateBeyond(const Eigen::Isometry3d& world_from_left);
 
   // Of the frame at hand.
   FrameView frame_;
@@ -299,11 +298,14 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   if (!comparison_)
     comparison_ =
         compareModel(state_.model, state_.graph, observation, frame_.states, frame_.fusion);
+  const ActiveRegion region = regionOf(world_from_left);
+  const bool leaves_much =
+      options_.deform.node_model == NodeModel::kRigid && region.leavesMuch(state_);
   ModelUpdateSummary update;
   const auto updateModel = [&] {
     update = updater_->update(observation, frame_.states, state_.graph, frame_.fusion, *comparison_,
                               &state_.memory, &state_.model);
-    beginNext(world_from_left);
+    if (!leaves_much) beginNext(world_from_left);
   };
   LastingErrors errors = state_.errors;
   // Neither needs the other.
@@ -322,12 +324,19 @@ void CpuBackend::fuse(const Eigen::Isometry3d& world_from_left) {
   if (options_.match_last_picture) state_.last = {frame_.measured.left, world_from_left};
   clock_.lap("fuse");
   settleTracks(update.index_map, first, world_from_left);
-  deactivateBeyond(world_from_left);
-  fused_.points = static_cast<int>(state_.model.size() + state_.inactive.points.size());
-  fused_.seen = update.seen;
-  fused_.fused = update.points.fused;
-  fused_.contradicted = update.points.contradicted;
-  fused_.inserted = update.insertion.inserted;
+  if (leaves_much) {
+    IndexMap kept;
+    changePoints([&] { kept = region.deactivate(&state_); });
+    state_.tracked.renumber(kept, state_.model, options_.graph.node_spacing_mm, surface_.get());
+    beginNext(world_from_left);
+  }
+  const int points = static_cast<int>(state_.model.size() + countInactive(state_));
+  fused_ = {points,
+            update.seen,
+            update.points.fused,
+            update.insertion.inserted,
+            update.points.contradicted,
+            fused_.corrected};
   clock_.lap("check");
 }
 
@@ -336,15 +345,6 @@ void CpuBackend::beginNext(const Eigen::Isometry3d& world_from_left) {
   if (worksAhead()) growth_.prepare(options_.graph, state_.model, state_.graph, solver_.get());
   const FrameView* next = options_.match_last_picture ? nullptr : frames_.next();
   if (next != nullptr) matching_.begin(state_.model, world_from_left, *next);
-}
-
-void CpuBackend::deactivateBeyond(const Eigen::Isometry3d& world_from_left) {
-  const ActiveRegion region = regionOf(world_from_left);
-  if (options_.deform.node_model != NodeModel::kRigid || !region.leavesMuch(state_)) return;
-  IndexMap kept;
-  changePoints([&] { kept = region.deactivate(&state_); });
-  state_.tracked.renumber(kept, state_.model, options_.graph.node_spacing_mm, surface_.get());
-  beginNext(world_from_left);
 }
 
 /// On the surface of the updated model.

@@ -18,6 +18,7 @@
 #include "io/sequences/frame_window.h"
 #include "io/sequences/sequence_reader.h"
 #include "pipeline/backends.h"
+#include "pipeline/model/active_region.h"
 #include "pipeline/reconstructor.h"
 #include "tests/bench/bench_times.h"
 
@@ -157,6 +158,7 @@ void addHidden(std::size_t points, ModelState* state) {
     aside_mm[axis] = (box.sizes()[axis] + kGapMm) * (k % 4 < 2 ? 1.0F : -1.0F);
     repeatAside(aside_mm, state);
   }
+  state->graph.edge_shapes.clear();  // of edges in another order
 }
 
 /// Prints the times of the frames behind the first ones; returns the median of a frame.
@@ -186,7 +188,7 @@ double time(const Clip& clip, const std::string& backend, std::size_t hidden, in
   const ModelState& state = reconstructor.model();
   const auto afar = std::count(state.graph.afar.begin(), state.graph.afar.end(), 1);
   const ReconstructionBackend& on = reconstructor.backend();
-  const std::size_t inactive = state.inactive.points.size();
+  const std::size_t inactive = countInactive(state);
   std::printf("%s, %s: %zu points (%zu inactive), %zu nodes, %td of them far from what is seen\n",
               on.name().c_str(), on.device().c_str(), state.model.size() + inactive, inactive,
               state.graph.size(), afar);

@@ -200,6 +200,19 @@ TEST(LocalGraph, MeasuresDistancesAlongEdges) {
   EXPECT_TRUE(std::isinf(away_mm[4]));  // no path
 }
 
+TEST(LocalGraph, KeepsTheNeighboursOfTheGraphThatWasTakenAlone) {
+  WarpGraph graph = chain(), another = chain();
+  graph.afar = {0, 0, 1, 1, 1};
+  another.edges.pop_back();
+  LocalGraph local;
+  local.take(graph);
+  for (const WarpGraph* each : {&graph, &another, &graph}) {
+    const NodeNeighbours expected = neighboursOf(*each), found = local.neighboursIn(*each);
+    EXPECT_EQ(found.start, expected.start);
+    EXPECT_EQ(found.nodes, expected.nodes);
+  }
+}
+
 TEST(LocalGraph, HasTheNodesNearbyAndAllStencils) {
   WarpGraph whole = chain();
   whole.afar = {1, 0, 0, 1, 1};

@@ -68,19 +68,22 @@ TEST(ShapeMemory, IsTheMeanOfTheFrames) {
 }
 
 TEST(ShapeMemory, StaysWithEdgesThatStay) {
-  std::vector<GraphEdge> before = {{0, 1, 1.0}, {0, 2, 1.0}, {1, 3, 1.0}};
-  before[0].frames = 5;
-  before[1].frames = 6;
-  before[2].frames = 7;
-  before[2].from_second_mm = {1, 2, 3};
-  std::vector<GraphEdge> after = {{0, 1, 0.5}, {1, 2, 1.0}, {1, 3, 1.0}, {2, 3, 1.0}};
-  copyShapeMemory(before, &after);
-  EXPECT_EQ(after[0].frames, 5);
-  EXPECT_EQ(after[0].weight, 0.5);
-  EXPECT_EQ(after[1].frames, 0);
-  EXPECT_EQ(after[2].frames, 7);
-  EXPECT_EQ(after[2].from_second_mm, Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(after[3].frames, 0);
+  const std::vector<GraphEdge> before = {{0, 1, 1.0}, {0, 2, 1.0}, {1, 3, 1.0}};
+  std::vector<EdgeShape> shapes(3);
+  shapes[0].frames = 5;
+  shapes[1].frames = 6;
+  shapes[2].frames = 7;
+  shapes[2].from_second_mm = {1, 2, 3};
+  const std::vector<GraphEdge> after = {{0, 1, 0.5}, {1, 2, 1.0}, {1, 3, 1.0}, {2, 3, 1.0}};
+  const std::vector<EdgeShape> kept = edgeShapesOf(after, before, shapes);
+  ASSERT_EQ(kept.size(), 4u);
+  EXPECT_EQ(kept[0].frames, 5);
+  EXPECT_EQ(kept[1].frames, 0);
+  EXPECT_EQ(kept[2].frames, 7);
+  EXPECT_EQ(kept[2].from_second_mm, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(kept[3].frames, 0);
+  // New edges have none yet.
+  EXPECT_EQ(edgeShapesOf(after, before, {}).front().frames, 0);
 }
 
 /// Length of the edge after frames that hold the first node alone, once errors had stretched it.

@@ -116,7 +116,7 @@ std::string today() {
 }  // namespace
 
 PointCloud cloudOf(const ModelState& state) {
-  if (!state.inactive.points.empty()) {
+  if (!state.inactive.empty()) {
     ModelState whole = state;
     activateAll(&whole);
     return cloudOf(whole);

@@ -146,7 +146,7 @@ class Growth {
     if (result_.structure_changed) {
       const std::vector<GraphEdge> before =
           std::exchange(graph_.edges, makeEdges(graph_, options_));
-      copyShapeMemory(before, &graph_.edges);
+      graph_.edge_shapes = edgeShapesOf(graph_.edges, before, graph_.edge_shapes);
     }
     return result_;
   }

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
 
+#include "core/parallel.h"
 #include "deform/graph/node_pairs.h"
 #include "deform/kernels/node_terms.h"
 
@@ -20,15 +22,11 @@ constexpr int kBridges = 3;  // three neighbours hold a part's rotation too
 NodePairs sharedStencils(const WarpGraph& graph) {
   const std::size_t nodes = graph.size();
   std::vector<std::size_t> start(nodes + 1, 0);
-  const auto visitPairs = [&](const auto& visit) {
-    visitNodePairs(graph.stencils, visit);
-    visitNodePairs(graph.inactive_stencils, visit);
-  };
-  visitPairs([&](std::int32_t a, std::int32_t) { ++start[a + 1]; });
+  visitNodePairs(graph.stencils, [&](std::int32_t a, std::int32_t) { ++start[a + 1]; });
   std::partial_sum(start.begin(), start.end(), start.begin());
   std::vector<std::int32_t> seconds(start.back());
   std::vector<std::size_t> end(start.begin(), start.end() - 1);
-  visitPairs([&](std::int32_t a, std::int32_t b) { seconds[end[a]++] = b; });
+  visitNodePairs(graph.stencils, [&](std::int32_t a, std::int32_t b) { seconds[end[a]++] = b; });
 
   NodePairs pairs;
   std::vector<std::int32_t> partners, last_first(nodes, -1);
@@ -192,17 +190,25 @@ void joinParts(const WarpGraph& graph, NodePairs* pairs) {
 
 std::vector<GraphEdge> makeEdges(const WarpGraph& graph, const GraphOptions& options) {
   NodePairs pairs = sharedStencils(graph);
+  if (!graph.inactive_pairs.empty()) {
+    const NodePairs active = std::exchange(pairs, {});
+    std::set_union(active.begin(), active.end(), graph.inactive_pairs.begin(),
+                   graph.inactive_pairs.end(), std::back_inserter(pairs));
+  }
   const auto bridges = static_cast<std::ptrdiff_t>(pairs.size());
   joinParts(graph, &pairs);
   std::sort(pairs.begin() + bridges, pairs.end());
   std::inplace_merge(pairs.begin(), pairs.begin() + bridges, pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  std::vector<GraphEdge> edges;
-  edges.reserve(pairs.size());
-  for (const auto& [a, b] : pairs) {
-    const double length_mm = (graph.positions_mm[a] - graph.positions_mm[b]).norm();
-    edges.push_back({a, b, edgeWeight(length_mm, options.node_spacing_mm)});
-  }
+  constexpr int kEdgesPerTask = 4096;
+  std::vector<GraphEdge> edges(pairs.size());
+  parallelRanges(static_cast<int>(pairs.size()), kEdgesPerTask, [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) {
+      const auto& [a, b] = pairs[static_cast<std::size_t>(e)];
+      const double length_mm = (graph.positions_mm[a] - graph.positions_mm[b]).norm();
+      edges[static_cast<std::size_t>(e)] = {a, b, edgeWeight(length_mm, options.node_spacing_mm)};
+    }
+  });
   return edges;
 }
 

@@ -18,30 +18,34 @@ std::pair<std::int32_t, std::int32_t> nodesOf(const GraphEdge& edge) {
 
 void updateShapeMemory(WarpGraph* graph) {
   constexpr int kEdgesPerTask = 4096;
+  graph->edge_shapes.resize(graph->edges.size());
   parallelRanges(static_cast<int>(graph->edges.size()), kEdgesPerTask, [&](int begin, int end) {
-    for (int e = begin; e < end; ++e) {
-      GraphEdge& edge = graph->edges[static_cast<std::size_t>(e)];
+    for (std::size_t e = static_cast<std::size_t>(begin); e < static_cast<std::size_t>(end); ++e) {
+      const GraphEdge& edge = graph->edges[e];
+      EdgeShape& shape = graph->edge_shapes[e];
       const Eigen::Vector3d offset =
           graph->positions_mm[edge.second] - graph->positions_mm[edge.first];
-      edge.frames = std::min(edge.frames + 1, kMemoryFrames);
-      edge.from_first_mm +=
-          (graph->turned[edge.first].transpose() * offset - edge.from_first_mm) / edge.frames;
-      edge.from_second_mm +=
-          (graph->turned[edge.second].transpose() * -offset - edge.from_second_mm) / edge.frames;
+      shape.frames = std::min(shape.frames + 1, kMemoryFrames);
+      shape.from_first_mm +=
+          (graph->turned[edge.first].transpose() * offset - shape.from_first_mm) / shape.frames;
+      shape.from_second_mm +=
+          (graph->turned[edge.second].transpose() * -offset - shape.from_second_mm) / shape.frames;
     }
   });
 }
 
-void copyShapeMemory(const std::vector<GraphEdge>& from, std::vector<GraphEdge>* to) {
-  auto known = from.begin();
-  for (GraphEdge& edge : *to) {
-    while (known != from.end() && nodesOf(*known) < nodesOf(edge)) ++known;
-    if (known == from.end()) return;
-    if (nodesOf(*known) != nodesOf(edge)) continue;
-    edge.from_first_mm = known->from_first_mm;
-    edge.from_second_mm = known->from_second_mm;
-    edge.frames = known->frames;
+std::vector<EdgeShape> edgeShapesOf(const std::vector<GraphEdge>& edges,
+                                    const std::vector<GraphEdge>& known,
+                                    const std::vector<EdgeShape>& known_shapes) {
+  std::vector<EdgeShape> shapes(edges.size());
+  const std::size_t count = std::min(known.size(), known_shapes.size());
+  std::size_t k = 0;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    while (k < count && nodesOf(known[k]) < nodesOf(edges[e])) ++k;
+    if (k == count) break;
+    if (nodesOf(known[k]) == nodesOf(edges[e])) shapes[e] = known_shapes[k];
   }
+  return shapes;
 }
 
 void expectShape(const WarpGraph& graph, double memory, std::vector<ExpectedOffsets>* expected) {
@@ -51,11 +55,13 @@ void expectShape(const WarpGraph& graph, double memory, std::vector<ExpectedOffs
     const Eigen::Vector3d offset = graph.positions_mm[edge.second] - graph.positions_mm[edge.first];
     ExpectedOffsets& offsets = (*expected)[e];
     offsets = {offset, -offset};
-    if (edge.frames == 0 || memory == 0) continue;
+    if (memory == 0 || e >= graph.edge_shapes.size()) continue;
+    const EdgeShape& shape = graph.edge_shapes[e];
+    if (shape.frames == 0) continue;
     offsets.from_first_mm +=
-        memory * (graph.turned[edge.first] * edge.from_first_mm - offsets.from_first_mm);
+        memory * (graph.turned[edge.first] * shape.from_first_mm - offsets.from_first_mm);
     offsets.from_second_mm +=
-        memory * (graph.turned[edge.second] * edge.from_second_mm - offsets.from_second_mm);
+        memory * (graph.turned[edge.second] * shape.from_second_mm - offsets.from_second_mm);
   }
 }
 

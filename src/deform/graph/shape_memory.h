@@ -12,8 +12,11 @@ namespace softscope {
 /// a warp was accepted: positions are live, `turned` is the rotation of the warp.
 void updateShapeMemory(WarpGraph* graph);
 
-/// Copies the mean shape of edges with the same nodes. Both ascend by (first, second).
-void copyShapeMemory(const std::vector<GraphEdge>& from, std::vector<GraphEdge>* to);
+/// Of each edge, the mean shape of the known one with the same nodes. Both ascend by
+/// (first, second).
+std::vector<EdgeShape> edgeShapesOf(const std::vector<GraphEdge>& edges,
+                                    const std::vector<GraphEdge>& known,
+                                    const std::vector<EdgeShape>& known_shapes);
 
 /// docs/energy.md (6a). Sets the expected offset of the nodes of each edge: `memory`
 /// (0 to 1) is the share of the mean offset, the rest is the present offset.

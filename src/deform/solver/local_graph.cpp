@@ -9,10 +9,13 @@
 namespace softscope {
 namespace {
 
-/// Number of edges between each node and the nearest local one; -1 without a path.
-std::vector<int> stepsFrom(const std::vector<char>& is_local, const NodeNeighbours& neighbours) {
+/// Number of edges between each node and the nearest local one; -1 without a path. `reached`:
+/// the nodes with one, ascending by it.
+std::vector<int> stepsFrom(const std::vector<char>& is_local, const NodeNeighbours& neighbours,
+                           std::vector<std::size_t>* reached) {
   std::vector<int> steps(is_local.size(), -1);
-  std::vector<std::size_t> front;
+  std::vector<std::size_t>& front = *reached;
+  front.clear();
   for (std::size_t j = 0; j < is_local.size(); ++j) {
     if (is_local[j] == 0) continue;
     steps[j] = 0;
@@ -95,15 +98,14 @@ void LocalGraph::take(const WarpGraph& graph) {
       graph_.since_reference.push_back(graph.since_reference[j]);
     if (j < graph.turned.size()) graph_.turned.push_back(graph.turned[j]);
   }
+  graph_.edge_shapes.resize(graph_.edges.size());
   std::size_t local = 0;
   for (const GraphEdge& edge : graph.edges) {
     if (afar_[static_cast<std::size_t>(edge.first)] | afar_[static_cast<std::size_t>(edge.second)])
       continue;
-    GraphEdge& mine = graph_.edges[local++];
-    const std::int32_t first = mine.first, second = mine.second;
-    mine = edge;
-    mine.first = first;
-    mine.second = second;
+    graph_.edges[local].weight = edge.weight;
+    const std::size_t e = static_cast<std::size_t>(&edge - graph.edges.data());
+    graph_.edge_shapes[local++] = e < graph.edge_shapes.size() ? graph.edge_shapes[e] : EdgeShape();
   }
 }
 
@@ -135,12 +137,27 @@ void LocalGraph::takeStructure(const WarpGraph& graph, std::vector<std::uint8_t>
     graph_.stencils.push_back(stencil);
   }
 
+  neighbours_ = {};
+  has_followers_ = false;
+}
+
+const NodeNeighbours& LocalGraph::neighboursIn(const WarpGraph& graph) {
+  if (!structure_.sameAs(graph)) return neighbours_of_another_ = neighboursOf(graph);
+  if (neighbours_.start.empty()) neighbours_ = neighboursOf(graph);
+  return neighbours_;
+}
+
+void LocalGraph::prepareReturn(const WarpGraph& graph) {
+  if (std::exchange(has_followers_, true)) return;
+  std::vector<char> is_local(graph.size());
+  for (std::size_t j = 0; j < graph.size(); ++j) is_local[j] = afar_[j] == 0;
   followers_.clear();
   parents_.clear();
-  const NodeNeighbours neighbours = neighboursOf(graph);
-  const std::vector<int> steps = stepsFrom(is_local, neighbours);
-  for (std::size_t j = 0; j < graph.size(); ++j) {
-    if (steps[j] <= 0) continue;
+  const NodeNeighbours& neighbours = neighboursIn(graph);
+  std::vector<std::size_t> reached;
+  const std::vector<int> steps = stepsFrom(is_local, neighbours, &reached);
+  for (const std::size_t j : reached) {
+    if (steps[j] == 0) continue;
     Follower follower{static_cast<std::int32_t>(j), static_cast<int>(parents_.size()), 0};
     for (int k = neighbours.start[j]; k < neighbours.start[j + 1]; ++k) {
       const std::int32_t other = neighbours.nodes[static_cast<std::size_t>(k)];
@@ -149,12 +166,10 @@ void LocalGraph::takeStructure(const WarpGraph& graph, std::vector<std::uint8_t>
     follower.end = static_cast<int>(parents_.size());
     followers_.push_back(follower);
   }
-  std::stable_sort(followers_.begin(), followers_.end(), [&](const Follower& a, const Follower& b) {
-    return steps[static_cast<std::size_t>(a.node)] < steps[static_cast<std::size_t>(b.node)];
-  });
 }
 
-void LocalGraph::returnTo(WarpGraph* whole) const {
+void LocalGraph::returnTo(WarpGraph* whole) {
+  prepareReturn(*whole);
   for (std::size_t k = 0; k < whole_of_local_.size(); ++k)
     whole->transforms[static_cast<std::size_t>(whole_of_local_[k])] = graph_.transforms[k];
   for (const Follower& follower : followers_) {

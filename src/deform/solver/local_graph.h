@@ -28,9 +28,13 @@ class LocalGraph {
   /// Copies what has changed since the last call. At least one node is not afar.
   void take(const WarpGraph& graph);
   WarpGraph& graph() { return graph_; }
+  /// Does a part of returnTo() now; of the graph that was taken.
+  void prepareReturn(const WarpGraph& graph);
   /// The transforms of the local nodes; the others move with their neighbours nearer to the local
   /// nodes, without their rotation, whose errors grow with the distance.
-  void returnTo(WarpGraph* whole) const;
+  void returnTo(WarpGraph* whole);
+  /// neighboursOf(), kept for the structure of the graph that was taken. Valid until the next call.
+  const NodeNeighbours& neighboursIn(const WarpGraph& graph);
 
  private:
   void takeStructure(const WarpGraph& graph, std::vector<std::uint8_t> afar);
@@ -45,9 +49,12 @@ class LocalGraph {
   std::vector<std::int32_t> whole_of_local_;
   std::vector<Follower> followers_;  // behind those that they follow
   std::vector<std::int32_t> parents_;
-  // Of the last call.
+  // Of the graph that was taken.
   std::vector<std::uint8_t> afar_;
   GraphStructure structure_;
+  NodeNeighbours neighbours_;  // once they are asked for
+  NodeNeighbours neighbours_of_another_;
+  bool has_followers_ = false;
 };
 
 }  // namespace softscope

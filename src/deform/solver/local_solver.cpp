@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/parallel.h"
 #include "deform/solver/local_graph.h"
 
 namespace softscope {
@@ -41,7 +42,7 @@ class LocalSolver final : public DeformSolver {
     if (graph.afar.empty()) return;  // the first choice follows from what will be seen
     if (!isLocal(graph)) return whole_->prepare(graph);
     local_.take(graph);
-    whole_->prepare(local_.graph());
+    parallelInvoke([&] { whole_->prepare(local_.graph()); }, [&] { local_.prepareReturn(graph); });
   }
 
   DeformSummary solve(const PointModel& model, const DeformObservation& seen,
@@ -60,12 +61,12 @@ class LocalSolver final : public DeformSolver {
  private:
   static bool mayBeLocal(const WarpGraph& graph) { return graph.size() > LocalRule::kWholeUpTo; }
 
-  void chooseNodes(const std::vector<char>& in_sight, WarpGraph* graph) const {
+  void chooseNodes(const std::vector<char>& in_sight, WarpGraph* graph) {
     const bool chosen_before = !graph->afar.empty();
     graph->afar.resize(graph->size(), 0);  // new nodes lie beside visible tissue
     if (std::find(in_sight.begin(), in_sight.end(), 1) == in_sight.end()) return;
-    const std::vector<double> away_mm =
-        distancesFrom(in_sight, *graph, neighboursOf(*graph), LocalRule::kMost * node_spacing_mm_);
+    const std::vector<double> away_mm = distancesFrom(in_sight, *graph, local_.neighboursIn(*graph),
+                                                      LocalRule::kMost * node_spacing_mm_);
     const auto within = [&](std::size_t j, double spacings) {
       return away_mm[j] <= spacings * node_spacing_mm_;
     };

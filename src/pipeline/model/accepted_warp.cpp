@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "deform/graph/graph_copy.h"
 #include "deform/graph/warp.h"
 
 namespace softscope {
@@ -11,7 +12,7 @@ void AcceptedWarp::apply(ModelUpdater* updater, double node_spacing_mm, ModelSta
   bool is_on_host = false;
   parallelInvoke([&] { is_on_host = of_model_->apply(state->graph, &state->model); },
                  [&] {
-                   before_.graph = state->graph;
+                   copyGraph(state->graph, &before_.graph);
                    before_.tracked = state->tracked;
                  });
   if (is_on_host) updater->changed(kModelShape);

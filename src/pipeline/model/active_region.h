@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <vector>
 
 #include "core/camera.h"
@@ -24,7 +25,7 @@ class ActiveRegion {
 
   /// Whether inactive points are in view, or nearly.
   bool reachesInactive(const ModelState& state) const;
-  /// Appends the inactive points of the region to the model.
+  /// Appends the inactive points of the region to the model, and some behind its border.
   void activate(ModelState* state) const;
 
   /// Whether enough of the model lies beyond the region.
@@ -45,5 +46,7 @@ class ActiveRegion {
 };
 
 void activateAll(ModelState* state);
+
+std::size_t countInactive(const ModelState& state);
 
 }  // namespace softscope

@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/parallel_copy.h"
 #include "deform/graph/graph_builder.h"
+#include "deform/graph/graph_copy.h"
 
 namespace softscope {
 namespace {
@@ -14,13 +16,6 @@ constexpr double kFewUnbound = 0.01;  // of the points: these can follow their n
 bool isFew(const std::vector<PointBinding>& bindings) {
   return static_cast<double>(unboundPoints(bindings).size()) <=
          kFewUnbound * static_cast<double>(bindings.size());
-}
-
-void copyBindings(const std::vector<PointBinding>& from, std::vector<PointBinding>* to) {
-  to->resize(from.size());
-  parallelRanges(static_cast<int>(from.size()), kPointsPerTask, [&](int begin, int end) {
-    std::copy(from.begin() + begin, from.begin() + end, to->begin() + begin);
-  });
 }
 
 /// Calls `work`, then fulfils `done`.
@@ -47,13 +42,13 @@ void GraphAhead::prepare(const GraphOptions& options, const PointModel& model,
       std::launch::async, [this, options, &model, &graph, solver, grown = std::move(grown),
                            prepared = std::move(prepared)]() mutable {
         // Copied first: its transforms change once the solver is prepared.
-        grown_.graph = graph;
-        if (can_wait_) analysed_ = graph;
+        copyGraph(graph, &grown_.graph);
+        if (can_wait_) copyStructure(graph, &analysed_);
         const auto grow = [&] {
           workFor(&grown, [&] {
-            copyBindings(model.bindings, &grown_.bindings);
+            parallelCopy(model.bindings, &grown_.bindings);
             growGraph(options, model.positions_mm, &grown_.bindings, &grown_.graph);
-            if (!can_wait_) analysed_ = grown_.graph;
+            if (!can_wait_) copyStructure(grown_.graph, &analysed_);
           });
         };
         const auto prepareSolver = [&] { workFor(&prepared, [&] { solver->prepare(analysed_); }); };

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/image.h"
@@ -20,10 +22,13 @@ struct LastPicture {
   Eigen::Isometry3d world_from_left = Eigen::Isometry3d::Identity();
 };
 
-/// Points far from the view that take no part in the frames: pipeline/model/active_region.h.
+/// Neighbouring points far from the view that take no part in the frames: active_region.h.
 struct InactivePoints {
-  PointModel points;  // as they were then; bindings: into WarpGraph::inactive_stencils
-  std::vector<Eigen::Vector3d> nodes_mm;  // then: positions_mm and turned of the graph
+  PointModel points;                  // as they were then; bindings: into `stencils`
+  std::vector<NodeStencil> stencils;  // of places in `nodes`
+  std::vector<std::int32_t> nodes;    // of the graph, ascending
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;  // of nodes that share a point
+  std::vector<Eigen::Vector3d> nodes_mm;  // then: of these, positions_mm and turned of the graph
   std::vector<Eigen::Matrix3d> turned;
 };
 
@@ -31,7 +36,7 @@ struct InactivePoints {
 struct ModelState {
   PointModel model;
   WarpGraph graph;
-  InactivePoints inactive;
+  std::vector<InactivePoints> inactive;  // active_region.h
   InsertionMemory memory;
   MaterialPoints tracked;
   LastingErrors errors;
