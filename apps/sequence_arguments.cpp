@@ -10,7 +10,8 @@ namespace softscope {
 void SequenceArguments::declareOptions(ArgumentList& arguments) {
   arguments.option("--calibration", "FILE", calibration,
                    "calibration; a sequence folder contains its own");
-  arguments.option("--mask", "PATH", mask, "image or folder; non-zero pixels are ignored");
+  arguments.option("--mask", "PATH", mask,
+                   "folder, or one image for all frames; non-zero pixels are ignored");
   arguments.option("--frames", "A:B:STEP", frames,
                    "frames A to B (exclusive), every STEP-th; each part is optional");
 }

@@ -130,7 +130,7 @@ TEST(WriteBehind, ARunFolderNamesAModelThatCouldNotBeWritten) {
   run.saveModel(0, 0, model);
   run.flush({"settings", 1, {model, scope, others, 1}});
   try {
-    run.writeRecord(FactSheet::Json::object(), /*complete=*/true);
+    run.writeRecord(FactSheet::Json::object(), Mask(), /*complete=*/true);
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr((options.folder / "nodes").string()));

@@ -143,12 +143,17 @@ std::optional<FrameReport> Reconstructor::process(Sequence& sequence) {
                      "; the sequence was removed, or its disk. finish() completes "
                      "the run with the frames before");
   const ViewOrigin views{source.reader.calibration(), source.paths, source.options.right_first};
+  const FrameRecord found = processFrame(*current, source.frames, views, impl_->loop);
   if (current->repeats && impl_->record) impl_->record->addRepeated();
-  return impl_->add(processFrame(*current, source.frames, views, impl_->loop), current->names);
+  if (impl_->record) impl_->record->addView(current->frame, found, impl_->loop.backend().rig());
+  return impl_->add(found, current->names);
 }
 
 FrameReport Reconstructor::process(const FrameView& view) {
-  return impl_->add(impl_->loop.process(frameOf(view, impl_->calibration, impl_->next_frame)));
+  const softscope::Frame frame = frameOf(view, impl_->calibration, impl_->next_frame);
+  const FrameRecord found = impl_->loop.process(frame);
+  if (impl_->record) impl_->record->addView(frame, found, impl_->loop.backend().rig());
+  return impl_->add(found);
 }
 
 Model Reconstructor::model() const {
@@ -165,7 +170,8 @@ Run Reconstructor::finish() {
   impl_->folder->saveLastModel(impl_->loop.model());
   impl_->flush();
   impl_->record->set("interrupted", false);
-  impl_->folder->writeRecord(RecordPaths().applyTo(impl_->record->json()), /*complete=*/true);
+  impl_->folder->writeRecord(RecordPaths().applyTo(impl_->record->json()), impl_->record->overlay(),
+                             /*complete=*/true);
   impl_->folder.reset();
   return Run(impl_->out);
 }

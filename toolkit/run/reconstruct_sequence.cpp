@@ -176,6 +176,7 @@ void SequenceRun::reconstructAll(const SequenceReader& reader, FrameWindow& fram
       rejections_.add(toString(frame.status), frame.frame,
                       say(toString(frame.status), ": ", frame.reason));
     if (result->repeats) record.addRepeated();
+    record.addView(result->frame, frame, reconstructor.backend().rig());
     recordFrame(frame, result->names, reconstructor, folder, record);
     next_frame = frame.frame + options_.settings.sequence.frames.step;
     at_end = ++processed == frame_count;
@@ -206,7 +207,7 @@ ReconstructedRun SequenceRun::finish(bool nothing, RunFolder& folder, RunRecord&
   const auto outcomes = checkThresholds(options_.thresholds, all, kOutcomes);
   if (!outcomes.empty()) all["thresholds"] = thresholdsJson(outcomes);
   const Json written = options_.paths.applyTo(all);
-  if (!nothing) folder.writeRecord(written, /*complete=*/!interrupted_);
+  if (!nothing) folder.writeRecord(written, record.overlay(), /*complete=*/!interrupted_);
   if (!failure_.empty())
     throw BackendError(failure_ + (nothing
                                        ? ". `backend=` cpu needs no GPU"

@@ -2,6 +2,7 @@
 #include "toolkit/run/ro_crate.h"
 
 #include "io/files/folder.h"
+#include "toolkit/run/overlay_finder.h"
 
 namespace softscope {
 namespace {
@@ -23,6 +24,7 @@ const CrateFile kCrateFiles[] = {
     {"frames.csv", "text/csv", "status of each frame, with the reason"},
     {"images.csv", "text/csv", "image files of each frame"},
     {"tracks.csv", "text/csv", "paths of the tracked points, mm"},
+    {kOverlayFile, "image/png", "mask of what stands still in the left image"},
     {kRecordFile, "application/json", "version, configuration, input hashes, timings, summary"}};
 
 /// The record is written last, when all other files exist.

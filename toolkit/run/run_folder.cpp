@@ -13,12 +13,14 @@
 #include "io/files/folder.h"
 #include "io/geometry/ply_writer.h"
 #include "io/geometry/trajectory_file.h"
+#include "io/images/image_writer.h"
 #include "io/text/message.h"
 #include "io/text/text_lines.h"
 #include "pipeline/model/active_region.h"
 #include "pipeline/model/model_sigma.h"
 #include "toolkit/record/json_text.h"
 #include "toolkit/run/out_folder.h"
+#include "toolkit/run/overlay_finder.h"
 #include "toolkit/run/ro_crate.h"
 #include "toolkit/run/run_tables.h"
 #include "toolkit/run/saved_model.h"
@@ -33,9 +35,9 @@ constexpr std::uintmax_t kCheckpointLimitBytes = std::uintmax_t{8} << 30;
 constexpr const char* kImages = "images.csv";
 constexpr const char* kKitti = "trajectory_kitti.txt";
 
-const char* const kRunFiles[] = {"model.ply", "frames.csv", "trajectory.txt", kKitti,
-                                 kImages,     "tracks.csv", "models.pvd",     kRecordFile,
-                                 kCheckpoint, kCrateFile};
+const char* const kRunFiles[] = {"model.ply",  "frames.csv", "trajectory.txt", kKitti,
+                                 kImages,      "tracks.csv", "models.pvd",     kRecordFile,
+                                 kOverlayFile, kCheckpoint,  kCrateFile};
 
 std::string otherMapName(int map) { return say("model_map", map, ".ply"); }
 
@@ -297,9 +299,10 @@ void RunFolder::saveLastModel(const ModelState& state) {
     saveModel(last_frame_, trajectory_.back().time_s, state);
 }
 
-void RunFolder::writeRecord(const FactSheet::Json& record, bool complete) {
+void RunFolder::writeRecord(const FactSheet::Json& record, const Mask& overlay, bool complete) {
   begin();
   writer_.finish();
+  if (!overlay.empty()) writePng(file(kOverlayFile), overlay, /*overwrite=*/true);
   writeFile(file(kCrateFile), jsonText(roCrate(options_.folder, record, today())), true);
   writeFile(file(kRecordFile), jsonText(record), true);
   if (complete) fs::remove(file(kCheckpoint));

@@ -72,8 +72,9 @@ class RunFolder {
   /// Saves the model of the last frame unless saved before.
   void saveLastModel(const ModelState& state);
   /// Writes the metadata for repositories, then
-  /// run.json. `complete`: the checkpoint is removed.
-  void writeRecord(const FactSheet::Json& record, bool complete);
+  /// run.json. `overlay`: RunRecord::overlay(), written if there is any. `complete`: the checkpoint
+  /// is removed.
+  void writeRecord(const FactSheet::Json& record, const Mask& overlay, bool complete);
 
  private:
   /// As they are at a flush.

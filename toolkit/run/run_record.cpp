@@ -175,9 +175,22 @@ std::vector<std::string> RunRecord::conclusions() const {
                   " frames are those of the frame before: the video stood still or repeats frames. "
                   "What moved meanwhile is unknown, and sigma takes each for a new measurement; "
                   "select other frames with `frames=`");
+  const std::string overlay = overlayWarning(overlay_.found(), kOverlayFile);
+  if (!overlay.empty()) all.push_back(overlay);
   if (located_ > 0 && scope_static_ == located_)
     all.push_back("no motion of the scope was detected; if it moved, state --scope moving");
   return all;
+}
+
+void RunRecord::addView(const Frame& frame, const FrameRecord& record, const RectifiedRig& rig) {
+  if (!record.fused()) return;
+  const double depth_mm = std::sqrt(record.depth.mm_per_px * rig.left.fx_px * rig.baseline_mm);
+  overlay_.add(frame.pair.left, frame.mask, rig.left, record.world_from_left, depth_mm);
+}
+
+Mask RunRecord::overlay() const {
+  Mask found = overlay_.found();
+  return overlayWarning(found, "").empty() ? Mask() : found;
 }
 
 int RunRecord::framesElsewhere() const {

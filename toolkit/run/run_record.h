@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/frame.h"
 #include "core/stereo_rig.h"
 #include "io/sequences/sequence_paths.h"
 #include "io/settings/settings_binder.h"
@@ -12,6 +13,7 @@
 #include "pipeline/reconstruction_backend.h"
 #include "toolkit/record/fact_sheet.h"
 #include "toolkit/run/frame_outcomes.h"
+#include "toolkit/run/overlay_finder.h"
 
 namespace softscope {
 
@@ -37,6 +39,11 @@ class RunRecord {
   /// with little evidence, a static scope. Included in json().
   std::vector<std::string> conclusions() const;
   FactSheet::Json json() const;
+  /// The images of that frame, for what stands still in them.
+  void addView(const Frame& frame, const FrameRecord& record, const RectifiedRig& rig);
+  /// Non-zero where structure stands still in the left image while the scope moves, if that is
+  /// worth a warning; else empty.
+  Mask overlay() const;
   /// One more frame whose images are those of the frame before.
   void addRepeated() { ++repeated_; }
   /// Short summary as text. `folder`: of the run; empty if nothing was written.
@@ -52,6 +59,7 @@ class RunRecord {
   std::map<std::string, int> frames_of_status_;
   std::map<int, int> frames_of_map_;  // fused ones
   FrameOutcomes outcomes_;
+  OverlayFinder overlay_;
   std::map<std::string, double> elapsed_ms_;  // per stage, over all frames
   std::vector<double> backprojection_mm_, prediction_mm_, frame_ms_, matches_;
   int frames_ = 0, points_ = 0, nodes_ = 0;

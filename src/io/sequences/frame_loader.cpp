@@ -106,6 +106,8 @@ FrameLoader::FrameLoader(const SequencePaths& paths, const SequenceOptions& opti
     TissueMasks masks = findTissueMasks(paths.mask, count_);
     masks_ = std::move(masks.files);
     warnings = std::move(masks.warnings);
+  } else if (fs::is_regular_file(paths.mask)) {
+    masks_.assign(static_cast<std::size_t>(count_), paths.mask);
   } else if (!paths.mask.empty()) {
     masks_ = partnersIn(paths.mask, kMaskKinds, view);
   }
