@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <random>
 #include <string>
 
@@ -57,11 +58,18 @@ Eigen::Isometry3d scopeAt(double x_mm) {
   return pose;
 }
 
+std::shared_ptr<const Frame> frameOf(const ColourImage& left, const Mask& mask = {}) {
+  Frame frame;
+  frame.pair.left = left;
+  frame.mask = mask;
+  return std::make_shared<const Frame>(frame);
+}
+
 /// The scope moves by `step_mm` per image; 1 mm is 5 px.
 Mask foundAlong(double step_mm, int images, Draw overlay, const Mask& mask = {}) {
   OverlayFinder finder;
   for (int i = 0; i < images; ++i)
-    finder.add(viewFrom(i * step_mm, overlay, static_cast<unsigned>(i)), mask, kCamera,
+    finder.add(frameOf(viewFrom(i * step_mm, overlay, static_cast<unsigned>(i)), mask), kCamera,
                scopeAt(i * step_mm), kDepthMm);
   return finder.found();
 }
@@ -113,7 +121,7 @@ TEST(OverlayFinder, LeavesOutMasksBordersAndTheirEdges) {
       std::fill_n(image.row(v), 30, Rgb8{0, 0, 0});
       std::fill_n(image.row(v) + image.width_px - 30, 30, Rgb8{0, 0, 0});
     }
-    finder.add(image, {}, kCamera, scopeAt(1.3 * i), kDepthMm);
+    finder.add(frameOf(image), kCamera, scopeAt(1.3 * i), kDepthMm);
   }
   EXPECT_EQ(shareOf(finder.found()), 0);
 }
@@ -121,14 +129,14 @@ TEST(OverlayFinder, LeavesOutMasksBordersAndTheirEdges) {
 TEST(OverlayFinder, IgnoresWhatItCannotUse) {
   OverlayFinder finder;
   EXPECT_TRUE(finder.found().empty());
-  finder.add({}, {}, kCamera, scopeAt(0), kDepthMm);
-  finder.add(viewFrom(0, Draw::kText, 1), {}, kCamera, scopeAt(0),
+  finder.add(frameOf({}), kCamera, scopeAt(0), kDepthMm);
+  finder.add(frameOf(viewFrom(0, Draw::kText, 1)), kCamera, scopeAt(0),
              std::numeric_limits<double>::quiet_NaN());
   EXPECT_TRUE(finder.found().empty());
   for (int i = 0; i < 12; ++i) {
-    finder.add(viewFrom(1.3 * i, Draw::kText, static_cast<unsigned>(i)), Mask(3, 3, 1), kCamera,
-               scopeAt(1.3 * i), kDepthMm);
-    finder.add(ColourImage(8, 8), {}, kCamera, scopeAt(100), kDepthMm);
+    finder.add(frameOf(viewFrom(1.3 * i, Draw::kText, static_cast<unsigned>(i)), Mask(3, 3, 1)),
+               kCamera, scopeAt(1.3 * i), kDepthMm);
+    finder.add(frameOf(ColourImage(8, 8)), kCamera, scopeAt(100), kDepthMm);
   }
   EXPECT_GT(shareOf(finder.found()), 0.02);
   EXPECT_EQ(overlayWarning({}, "m.png"), "");

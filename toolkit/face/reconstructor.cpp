@@ -145,13 +145,15 @@ std::optional<FrameReport> Reconstructor::process(Sequence& sequence) {
   const ViewOrigin views{source.reader.calibration(), source.paths, source.options.right_first};
   const FrameRecord found = processFrame(*current, source.frames, views, impl_->loop);
   if (current->repeats && impl_->record) impl_->record->addRepeated();
-  if (impl_->record) impl_->record->addView(current->frame, found, impl_->loop.backend().rig());
+  if (impl_->record)
+    impl_->record->addView(source.frames.current(), found, impl_->loop.backend().rig());
   return impl_->add(found, current->names);
 }
 
 FrameReport Reconstructor::process(const FrameView& view) {
-  const softscope::Frame frame = frameOf(view, impl_->calibration, impl_->next_frame);
-  const FrameRecord found = impl_->loop.process(frame);
+  const auto frame = std::make_shared<const softscope::Frame>(
+      frameOf(view, impl_->calibration, impl_->next_frame));
+  const FrameRecord found = impl_->loop.process(*frame);
   if (impl_->record) impl_->record->addView(frame, found, impl_->loop.backend().rig());
   return impl_->add(found);
 }

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
+#include "core/background_work.h"
 #include "core/mask_morphology.h"
 #include "core/parallel.h"
 #include "io/text/message.h"
@@ -25,6 +27,12 @@ int radiusPx(int width_px) {
   return std::max(2, static_cast<int>(std::lround(kBesideShare * width_px)));
 }
 
+int cellsAlong(int size_px) { return (size_px + kCellPx - 1) / kCellPx; }
+
+std::size_t cellOf(int u, int v, int columns) {
+  return static_cast<std::size_t>(v / kCellPx * columns + u / kCellPx);
+}
+
 /// How far the tissue in the middle of a cell has moved in the image. Infinite where it has left.
 double motionPx(const PinholeCamera& camera, const Eigen::Isometry3d& now_from_then,
                 const Eigen::Vector2d& pixel, double depth_mm) {
@@ -35,69 +43,91 @@ double motionPx(const PinholeCamera& camera, const Eigen::Isometry3d& now_from_t
 
 }  // namespace
 
-std::vector<char> OverlayFinder::cellsThatMoved(const PinholeCamera& camera,
-                                                const Eigen::Isometry3d& world_from_left,
-                                                double depth_mm) {
-  std::vector<char> moved(cells_.size(), 0);
+OverlayFinder::Pixels::Pixels(const ColourImage& first)
+    : mean(first.width_px, first.height_px, 0),
+      squares(first.width_px, first.height_px, 0),
+      ignored(first.width_px, first.height_px, 0) {
+  ignore(findBorder(first));
+}
+
+void OverlayFinder::Pixels::ignore(const Mask& mask) {
+  if (mask.values.size() != ignored.values.size()) return;
+  for (std::size_t i = 0; i < ignored.values.size(); ++i)
+    ignored.values[i] |= static_cast<std::uint8_t>(mask.values[i] != 0);
+}
+
+/// `images_of_cells`: 0 for cells that have not moved.
+void OverlayFinder::Pixels::add(const Frame& frame, const std::vector<int>& images_of_cells) {
+  const ColourImage& left = frame.pair.left;
+  const int columns = cellsAlong(left.width_px);
+  ignore(frame.mask);
+  parallelRows(left.height_px, [&](int v) {
+    for (int u = 0; u < left.width_px; ++u) {
+      const int images = images_of_cells[cellOf(u, v, columns)];
+      if (images == 0) continue;
+      const float level = toGray(left.at(u, v)), off = level - mean.at(u, v);
+      mean.at(u, v) += off / static_cast<float>(images);
+      squares.at(u, v) += off * (level - mean.at(u, v));
+    }
+  });
+}
+
+/// True if cells have moved: then with the number of their images.
+bool OverlayFinder::takePose(const PinholeCamera& camera, const Eigen::Isometry3d& world_from_left,
+                             double depth_mm, std::vector<int>* images_of_cells) {
+  const int columns = cellsAlong(pixels_->mean.width_px);
+  images_of_cells->assign(cells_.size(), 0);
+  bool any = false;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     Cell& cell = cells_[c];
-    const int column = static_cast<int>(c) % columns_, row = static_cast<int>(c) / columns_;
+    const int column = static_cast<int>(c) % columns, row = static_cast<int>(c) / columns;
     const Eigen::Vector2d middle((column + 0.5) * kCellPx, (row + 0.5) * kCellPx);
     if (cell.images > 0 && !(motionPx(camera, world_from_left.inverse() * cell.world_from_left,
                                       middle, cell.depth_mm) >= kLeastMotionPx))
       continue;
     cell = {world_from_left, depth_mm, cell.images + 1};
-    moved[c] = 1;
+    (*images_of_cells)[c] = cell.images;
+    any = true;
   }
-  return moved;
+  return any;
 }
 
-void OverlayFinder::ignore(const Mask& mask) {
-  if (mask.values.size() != ignored_.values.size()) return;
-  for (std::size_t i = 0; i < ignored_.values.size(); ++i)
-    ignored_.values[i] |= static_cast<std::uint8_t>(mask.values[i] != 0);
-}
-
-void OverlayFinder::add(const ColourImage& left, const Mask& mask, const PinholeCamera& camera,
+void OverlayFinder::add(std::shared_ptr<const Frame> frame, const PinholeCamera& camera,
                         const Eigen::Isometry3d& world_from_left, double depth_mm) {
+  const ColourImage& left = frame->pair.left;
   if (left.empty() || !(depth_mm > 0)) return;
-  if (mean_.empty()) {
-    columns_ = (left.width_px + kCellPx - 1) / kCellPx;
-    const int rows = (left.height_px + kCellPx - 1) / kCellPx;
-    cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows));
-    mean_ = squares_ = Raster<float>(left.width_px, left.height_px, 0);
-    ignored_ = Mask(left.width_px, left.height_px, 0);
-    ignore(findBorder(left));
+  if (!pixels_) {
+    pixels_ = std::make_shared<Pixels>(left);
+    cells_.resize(static_cast<std::size_t>(cellsAlong(left.width_px) * cellsAlong(left.height_px)));
   }
-  if (left.width_px != mean_.width_px || left.height_px != mean_.height_px) return;
-  const std::vector<char> moved = cellsThatMoved(camera, world_from_left, depth_mm);
-  if (std::find(moved.begin(), moved.end(), 1) == moved.end()) return;
-  ignore(mask);
-  parallelRows(left.height_px, [&](int v) {
-    for (int u = 0; u < left.width_px; ++u) {
-      const std::size_t c = static_cast<std::size_t>(v / kCellPx * columns_ + u / kCellPx);
-      if (moved[c] == 0) continue;
-      const float level = toGray(left.at(u, v)), off = level - mean_.at(u, v);
-      mean_.at(u, v) += off / static_cast<float>(cells_[c].images);
-      squares_.at(u, v) += off * (level - mean_.at(u, v));
-    }
-  });
+  if (left.width_px != pixels_->mean.width_px || left.height_px != pixels_->mean.height_px) return;
+  std::vector<int> images_of_cells;
+  if (!takePose(camera, world_from_left, depth_mm, &images_of_cells)) return;
+  if (pending_.valid()) pending_.get();
+  pending_ = std::async(threadCount() > 1 ? std::launch::async : std::launch::deferred,
+                        [pixels = pixels_, frame = std::move(frame),
+                         images_of_cells = std::move(images_of_cells)] {
+                          runInBackground([&] { pixels->add(*frame, images_of_cells); });
+                        })
+                 .share();
 }
 
 Mask OverlayFinder::found() const {
-  if (mean_.empty()) return {};
-  const int radius_px = radiusPx(mean_.width_px);
-  const Mask ignored = dilated(ignored_, 2 * radius_px);  // their edges stand still as well
-  Mask fixed(mean_.width_px, mean_.height_px, 0);
-  for (int v = 1; v + 1 < mean_.height_px; ++v)
-    for (int u = 1; u + 1 < mean_.width_px; ++u) {
-      const int images =
-          cells_[static_cast<std::size_t>(v / kCellPx * columns_ + u / kCellPx)].images;
+  if (!pixels_) return {};
+  if (pending_.valid()) pending_.get();
+  const Raster<float>& mean = pixels_->mean;
+  const int radius_px = radiusPx(mean.width_px);
+  const Mask ignored = dilated(pixels_->ignored, 2 * radius_px);  // their edges stand still as well
+  const int columns = cellsAlong(mean.width_px);
+  Mask fixed(mean.width_px, mean.height_px, 0);
+  for (int v = 1; v + 1 < mean.height_px; ++v)
+    for (int u = 1; u + 1 < mean.width_px; ++u) {
+      const int images = cells_[cellOf(u, v, columns)].images;
       if (images < kFewestImages || ignored.at(u, v) != 0) continue;
-      const float across = (mean_.at(u + 1, v) - mean_.at(u - 1, v)) / 2,
-                  down = (mean_.at(u, v + 1) - mean_.at(u, v - 1)) / 2,
+      const float across = (mean.at(u + 1, v) - mean.at(u - 1, v)) / 2,
+                  down = (mean.at(u, v + 1) - mean.at(u, v - 1)) / 2,
                   edge = std::hypot(across, down);
-      const float deviation = std::sqrt(squares_.at(u, v) / static_cast<float>(images - 1));
+      const float deviation = std::sqrt(pixels_->squares.at(u, v) / static_cast<float>(images - 1));
       fixed.at(u, v) = edge >= kLeastEdge && edge >= kLeastRatio * deviation;
     }
   Mask around = eroded(dilated(fixed, 3 * radius_px), 2 * radius_px);  // fills letters

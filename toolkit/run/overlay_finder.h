@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <future>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/camera.h"
+#include "core/frame.h"
 #include "core/image.h"
 
 namespace softscope {
@@ -21,13 +24,13 @@ inline constexpr const char* kOverlayFile = "overlay_mask.png";
 /// the mean, as it passes over the pixel; a fixed one has that of noise alone.
 class OverlayFinder {
  public:
-  /// An image whose left camera saw tissue at about `depth_mm` from that pose. `mask`: pixels that
-  /// are no tissue anyway; may be empty. The first image tells the even border. Images of another
-  /// size are ignored.
-  void add(const ColourImage& left, const Mask& mask, const PinholeCamera& camera,
+  /// A frame whose left camera saw tissue at about `depth_mm` from that pose; pixels of its mask
+  /// are no tissue anyway. The first image tells the even border. Images of another size are
+  /// ignored. Works beside the caller.
+  void add(std::shared_ptr<const Frame> frame, const PinholeCamera& camera,
            const Eigen::Isometry3d& world_from_left, double depth_mm);
 
-  /// Non-zero around fixed structure; empty while too few images have moved.
+  /// Non-zero around fixed structure; empty without images.
   Mask found() const;
 
  private:
@@ -37,15 +40,21 @@ class OverlayFinder {
     double depth_mm = 0;
     int images = 0;
   };
-  std::vector<char> cellsThatMoved(const PinholeCamera& camera,
-                                   const Eigen::Isometry3d& world_from_left, double depth_mm);
+  /// Of the images in which its cell had moved.
+  struct Pixels {
+    explicit Pixels(const ColourImage& first);
+    void add(const Frame& frame, const std::vector<int>& images_of_cells);
+    void ignore(const Mask& mask);
 
-  void ignore(const Mask& mask);
+    Raster<float> mean, squares;  // grey levels; sum of squared differences from the mean
+    Mask ignored;                 // in any image
+  };
+  bool takePose(const PinholeCamera& camera, const Eigen::Isometry3d& world_from_left,
+                double depth_mm, std::vector<int>* images_of_cells);
 
-  int columns_ = 0;
   std::vector<Cell> cells_;
-  Raster<float> mean_, squares_;  // grey levels; sum of squared differences from the mean
-  Mask ignored_;                  // in any image
+  std::shared_ptr<Pixels> pixels_;
+  std::shared_future<void> pending_;  // of the last image
 };
 
 /// For a warning: share of the image, and where the mask is. Empty for an empty mask, or for so

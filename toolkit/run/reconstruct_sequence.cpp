@@ -176,7 +176,7 @@ void SequenceRun::reconstructAll(const SequenceReader& reader, FrameWindow& fram
       rejections_.add(toString(frame.status), frame.frame,
                       say(toString(frame.status), ": ", frame.reason));
     if (result->repeats) record.addRepeated();
-    record.addView(result->frame, frame, reconstructor.backend().rig());
+    record.addView(frames.current(), frame, reconstructor.backend().rig());
     recordFrame(frame, result->names, reconstructor, folder, record);
     next_frame = frame.frame + options_.settings.sequence.frames.step;
     at_end = ++processed == frame_count;

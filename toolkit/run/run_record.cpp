@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/tolerance.h"
@@ -182,10 +183,11 @@ std::vector<std::string> RunRecord::conclusions() const {
   return all;
 }
 
-void RunRecord::addView(const Frame& frame, const FrameRecord& record, const RectifiedRig& rig) {
+void RunRecord::addView(std::shared_ptr<const Frame> frame, const FrameRecord& record,
+                        const RectifiedRig& rig) {
   if (!record.fused()) return;
   const double depth_mm = std::sqrt(record.depth.mm_per_px * rig.left.fx_px * rig.baseline_mm);
-  overlay_.add(frame.pair.left, frame.mask, rig.left, record.world_from_left, depth_mm);
+  overlay_.add(std::move(frame), rig.left, record.world_from_left, depth_mm);
 }
 
 Mask RunRecord::overlay() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,8 @@ class RunRecord {
   std::vector<std::string> conclusions() const;
   FactSheet::Json json() const;
   /// The images of that frame, for what stands still in them.
-  void addView(const Frame& frame, const FrameRecord& record, const RectifiedRig& rig);
+  void addView(std::shared_ptr<const Frame> frame, const FrameRecord& record,
+               const RectifiedRig& rig);
   /// Non-zero where structure stands still in the left image while the scope moves, if that is
   /// worth a warning; else empty.
   Mask overlay() const;

@@ -27,6 +27,10 @@ class FrameWindow {
     }
     return results_.empty() ? nullptr : results_.front().get();
   }
+  /// The frame that advance() returned last.
+  std::shared_ptr<const Frame> current() const {
+    return {results_.front(), &results_.front()->frame};
+  }
   /// Up to the first that is unreadable.
   UpcomingFrames upcoming() const {
     UpcomingFrames frames;
